@@ -5,7 +5,7 @@
 use crate::connect;
 use crate::error::StoreError;
 use ralf_files::database::log;
-use rusqlite::{Connection, OptionalExtension};
+use rusqlite::{Connection, Error, ErrorCode};
 use std::path::Path;
 
 /// A store's name, and the last thing that was done in it.
@@ -15,19 +15,37 @@ pub(crate) struct Held {
     pub(crate) event: i64,
 }
 
-impl Held {
-    /// What the file holds alone. `None` where that can't be told: of a store of the first version, or while another
-    /// program writes its journal back.
-    pub(crate) fn alone(file: &Path) -> Option<Self> {
-        let connection = connect::for_reading(file, "immutable=1").ok()?;
-        Self::of(&connection).ok().flatten()
-    }
+/// What a file holds by itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Alone {
+    /// A store.
+    Store(Held),
+    /// A store of the first version, which has no name, or no store at all.
+    Nameless,
+    /// Nobody knows: another program may be writing its journal back.
+    Unreadable,
+}
 
-    fn of(on: &Connection) -> rusqlite::Result<Option<Self>> {
+impl Alone {
+    pub(crate) fn of(file: &Path) -> Self {
+        let Ok(connection) = connect::for_reading(file, "immutable=1") else { return Self::Unreadable };
+        match Held::of(&connection) {
+            Ok(held) => Self::Store(held),
+            // No such table, or no row in it; what is no database.
+            Err(Error::SqlInputError { .. } | Error::QueryReturnedNoRows) => Self::Nameless,
+            Err(error) => match error.sqlite_error_code() {
+                Some(ErrorCode::NotADatabase | ErrorCode::Unknown) => Self::Nameless,
+                _ => Self::Unreadable,
+            },
+        }
+    }
+}
+
+impl Held {
+    fn of(on: &Connection) -> rusqlite::Result<Self> {
         on.query_row("SELECT id, (SELECT coalesce(max(id), 0) FROM event) FROM store", [], |row| {
             Ok(Self { store: row.get(0)?, event: row.get(1)? })
         })
-        .optional()
     }
 
     /// Whether it may have become the other one by edits.
@@ -44,10 +62,9 @@ pub(crate) fn has_journal(file: &Path) -> bool {
 /// Refuses a file whose journal is another store's, or was begun before what the file holds. `on` reads both.
 pub(crate) fn refuse_foreign_journal(on: &Connection, file: &Path) -> Result<(), StoreError> {
     // The file first: who edits meanwhile adds to what both hold. Of what can't be read, whoever asks next tells.
-    let alone = Held::alone(file);
-    let both = Held::of(on).ok().flatten();
-    match both.zip(alone) {
-        Some((both, alone)) if !alone.precedes(&both) => {
+    let alone = Alone::of(file);
+    match (alone, Held::of(on)) {
+        (Alone::Store(alone), Ok(both)) if !alone.precedes(&both) => {
             let expected = format!("that of store {}, of which the file is", alone.store);
             let found = format!("one of store {} up to edit {}{}", both.store, both.event, remedy(file));
             Err(StoreError::content(file, "journal", expected, found))

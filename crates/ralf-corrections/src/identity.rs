@@ -2,7 +2,7 @@
 //! every edit, and nobody ever reads it again; of one that was written over, half would be of the one, half of the
 //! other.
 
-use crate::alone::Held;
+use crate::alone::Alone;
 use crate::error::StoreError;
 use ralf_files::database::log;
 use std::io;
@@ -31,8 +31,7 @@ type Stamp = (Option<SystemTime>, u64);
 #[derive(Debug, Clone)]
 struct Known {
     stamp: Stamp,
-    /// `None` where nothing could be told.
-    held: Option<Held>,
+    alone: Alone,
 }
 
 impl Identity {
@@ -41,7 +40,7 @@ impl Identity {
     pub(crate) fn of_store(file: &Path) -> Result<Self, StoreError> {
         let deleted = |_| StoreError::gone(file, "that it was deleted");
         let id = file_id(file).map_err(deleted)?;
-        let known = Known { stamp: stamp(file).map_err(deleted)?, held: Held::alone(file) };
+        let known = Known { stamp: stamp(file).map_err(deleted)?, alone: Alone::of(file) };
         let mut files = vec![(file.to_owned(), id)];
         let log = log(file);
         if let Ok(id) = file_id(&log) {
@@ -65,28 +64,32 @@ impl Identity {
         self.files.first().map_or(Ok(()), |(file, _)| self.check_held(file))
     }
 
-    /// Refuses a file that holds another store than before, or less. Only journals that are written back change it.
+    /// Refuses a file that holds another store than before, less of it, or none. Only journals that are written back
+    /// change it.
     fn check_held(&self, file: &Path) -> Result<(), StoreError> {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut found = None;
+        let mut over = "another file written over it";
         for _ in 0..TRIES {
             let now = stamp(file).map_err(|error| StoreError::gone(file, &error.to_string()))?;
+            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
             if now == known.stamp {
                 return Ok(());
             }
-            found = Held::alone(file);
-            match (&known.held, &found) {
-                (Some(before), Some(held)) if !before.precedes(held) => sleep(BETWEEN_TRIES),
-                (Some(_), None) => sleep(BETWEEN_TRIES),
-                _ => {
-                    *known = Known { stamp: now, held: found };
+            match (&known.alone, Alone::of(file)) {
+                (Alone::Store(before), Alone::Store(found)) if !before.precedes(&found) => {
+                    over = "another store, or an older state of it, written over it";
+                }
+                (Alone::Store(_), Alone::Nameless) => over = "another file written over it",
+                // Who reads meanwhile keeps a journal from being written back as a whole.
+                (Alone::Store(_), Alone::Unreadable) => return Ok(()),
+                (_, alone) => {
+                    *known = Known { stamp: now, alone };
                     return Ok(());
                 }
             }
+            drop(known);
+            sleep(BETWEEN_TRIES);
         }
-        // Of what can't be read the database itself tells.
-        let over = found.map(|_| "another store, or an older state of it, written over it");
-        over.map_or(Ok(()), |over| Err(StoreError::gone(file, over)))
+        Err(StoreError::gone(file, over))
     }
 }
 

@@ -152,7 +152,7 @@ fn refuse_empty(file: &Path) -> Result<(), StoreError> {
 
 /// Refuses what is no store, and one that is damaged or lies below another one's journal; returns its version.
 fn check(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
-    let found = check_kind(connection, file)?;
+    let found = check_kind(connection, file).map_err(or_the_journal(file))?;
     refuse_foreign_journal(connection, file)?;
     let pages = check_pages(connection, file);
     pages.and_then(|()| check_standing(connection, file, found)).map_err(or_the_journal(file))?;

@@ -21,7 +21,8 @@ pub(crate) fn refuse_among_sequences(out: &Path) -> Result<(), DataError> {
     let place = real_path(out);
     let folders = place.ancestors().filter(|folder| folder.file_name().is_some_and(|name| name == SEQUENCES));
     for recording in folders.filter_map(Path::parent) {
-        let names = files::folders(&recording.join(SEQUENCES))?;
+        // What can't be listed on the way is no business of who writes below it.
+        let names = files::folders(&recording.join(SEQUENCES)).unwrap_or_default();
         if let Some(name) = names.iter().find(|name| sensors_file(recording, name).is_file()) {
             let found = format!(
                 "a part of {}, which has {}",

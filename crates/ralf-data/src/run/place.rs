@@ -3,11 +3,12 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::open::recognised;
-use crate::read::{layout, refuse_to_write_into};
+use crate::read::{layout, refuse_to_write_into, ros};
 use crate::result::{OutFolder, is_under_way};
 use crate::tree::{LABELS, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Refuses a part of a recording, any other recording, a file in the place of the folder or of the sequences' own, what
@@ -36,11 +37,23 @@ fn refuse_recording(out: &Path) -> Result<(), DataError> {
     if let Some(file) = sequences.iter().map(|name| sensors_file(out, name)).find(|file| file.is_file()) {
         return refuse(format!("a recording, with {}", file.display()));
     }
+    // Results beside a recording are there already, or are none of ours.
+    if out.join(RECORD).is_file() || is_under_way(out)? {
+        return Ok(());
+    }
     match recognised(out) {
-        // What has `sequences` looks like one in the own layout.
-        Some((format, _)) if format != layout::NAME => refuse(format!("a recording of the format {format}")),
+        // What has `sequences` looks like one in the own layout. Not only ROS writes a file `metadata.yaml`.
+        Some((format, _)) if format != layout::NAME && (format != ros::NAME || is_bag(out)) => {
+            refuse(format!("a recording of the format {format}"))
+        }
         _ => Ok(()),
     }
+}
+
+/// Whether a folder's `metadata.yaml` is that of a ROS 2 bag.
+fn is_bag(out: &Path) -> bool {
+    let text = fs::read_to_string(out.join("metadata.yaml"));
+    text.is_ok_and(|text| text.contains("rosbag2_bagfile_information"))
 }
 
 /// What the record of every version of the program has.
@@ -80,7 +93,7 @@ fn refuse_other_labels(out: &Path) -> Result<(), DataError> {
     for sequence in real_folders(&out.join(SEQUENCES))? {
         if let Some(file) = labels_alone(&sequence)? {
             let expected = "labels of `ralf label`, or nothing yet";
-            let found = format!("{} without a table, which would be lost", file.display());
+            let found = format!("{} without a table, which would be lost: move it away", file.display());
             return Err(DataError::content(out, "output", expected, found));
         }
     }

@@ -106,6 +106,11 @@ fn a_file_that_is_written_over_takes_no_edit() {
         assert!(error.contains("another store, or an older state of it, written over it"), "{error}");
         assert!(is_gone(reader.summaries("00")) && is_gone(store.write_back()));
     }
+    for bytes in [&b""[..], b"these are notes, and no database of any kind"] {
+        fs::write(&folder.file, bytes).unwrap();
+        let error = apply(&mut store, 200).unwrap_err().to_string();
+        assert!(error.contains("another file written over it"), "{error}");
+    }
     fs::write(&folder.file, &whole).unwrap();
     apply(&mut store, 200).unwrap();
     assert_eq!(reader.summaries("00").unwrap().len(), 26, "put back, it goes on");

@@ -32,8 +32,9 @@ pub(crate) fn open(dataset: &Path, names: &[String]) -> Result<Recording, DataEr
     refuse_results(dataset)?;
     let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
     let mut folders = folders(&folder)?;
-    if !names.is_empty() && names.iter().all(|name| folders.contains(&folder.join(name))) {
-        folders.retain(|of| names.iter().any(|name| *of == folder.join(name)));
+    let is_named = |name: &String| folders.iter().any(|folder| folder.file_name() == Some(name.as_ref()));
+    if !names.is_empty() && names.iter().all(is_named) {
+        folders.retain(|folder| names.iter().any(|name| folder.file_name() == Some(name.as_ref())));
     }
     let sequences = folders.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
     if sequences.is_empty() {
