@@ -24,12 +24,11 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
         make(file)?;
     }
     refuse_empty(file)?;
-    if has_journal(file) {
-        // Who may write and goes away again has the journal in the file, whatever was refused.
-        check(&connect::for_reading(file, READ)?, file)?;
-    }
+    // Who may write and goes away again has the journal in the file, whatever was refused.
+    let with_journal =
+        has_journal(file).then(|| check(&connect::for_reading(file, READ)?, file)).transpose()?;
     let mut connection = connect::for_writing(file)?;
-    let found = check(&connection, file)?;
+    let found = with_journal.map_or_else(|| check(&connection, file), Ok)?;
     prepare(&connection).map_err(told(file))?;
     check_writable(&connection, file)?;
     if found == FIRST_VERSION {

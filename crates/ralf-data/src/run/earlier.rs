@@ -35,12 +35,9 @@ impl Earlier {
     /// What became of them, for people: a sentence each, what is gone first. `again` is [`NOW`](Self::NOW) or
     /// [`PLANNED`](Self::PLANNED).
     pub fn told(&self, again: &str) -> Vec<String> {
-        let gone = |what: &str, names: &[String]| {
-            (!names.is_empty())
-                .then(|| format!("removed, for they were {OTHERS}: {what}{}", names.join(", ")))
+        let others = |done: &str, what: &str, names: &[String]| {
+            (!names.is_empty()).then(|| format!("{done}, for they were {OTHERS}: {what}{}", names.join(", ")))
         };
-        let replaced = (!self.replaced.is_empty())
-            .then(|| format!("labelled again, for they were {OTHERS}: {}", self.replaced.join(", ")));
         let changed = self
             .changed
             .iter()
@@ -54,9 +51,17 @@ impl Earlier {
                  read then"
             )
         });
-        let unfinished = gone("what was labelled so far of ", &self.unfinished);
-        let gone = gone("", &self.removed).into_iter().chain(unfinished).chain(replaced);
-        gone.chain(changed).chain(damaged).chain(without).collect()
+        let removed = others("removed", "", &self.removed);
+        let unfinished = others("removed", "what was labelled so far of ", &self.unfinished);
+        let replaced = others("labelled again", "", &self.replaced);
+        removed
+            .into_iter()
+            .chain(unfinished)
+            .chain(replaced)
+            .chain(changed)
+            .chain(damaged)
+            .chain(without)
+            .collect()
     }
 
     /// What is gone, too; each is named once.

@@ -19,6 +19,16 @@ fn file_of(scans: impl IntoIterator<Item = u32>) -> (Folder, Vec<u8>) {
     (folder, bytes)
 }
 
+/// An open store whose journal was written back, and one who reads from it.
+fn written_back(scans: u32) -> (Folder, Store, Reader) {
+    let folder = Folder::new();
+    let mut store = Store::open(&folder.file).unwrap();
+    let reader = store.reader().unwrap();
+    (0..scans).for_each(|scan| drop(apply(&mut store, scan).unwrap()));
+    store.write_back().unwrap();
+    (folder, store, reader)
+}
+
 fn corrected(file: &Path) -> usize {
     Store::open(file).unwrap().summaries("00").unwrap().len()
 }
@@ -73,11 +83,7 @@ fn a_journal_that_spoils_an_older_state_is_named_and_nothing_is_touched() {
 #[test]
 fn what_is_put_in_the_place_of_a_store_that_was_written_back_is_what_is_read() {
     let (_bobs, bytes) = file_of([5]);
-    let folder = Folder::new();
-    let mut store = Store::open(&folder.file).unwrap();
-    let reader = store.reader().unwrap();
-    (0..30).for_each(|scan| drop(apply(&mut store, scan).unwrap()));
-    store.write_back().unwrap();
+    let (folder, mut store, reader) = written_back(30);
     assert_eq!(journal(&folder.file).metadata().unwrap().len(), 0);
     fs::remove_file(&folder.file).unwrap();
     fs::write(&folder.file, &bytes).unwrap();
@@ -90,11 +96,7 @@ fn what_is_put_in_the_place_of_a_store_that_was_written_back_is_what_is_read() {
 #[test]
 fn a_file_that_is_written_over_takes_no_edit() {
     let (_bobs, other) = file_of([5]);
-    let folder = Folder::new();
-    let mut store = Store::open(&folder.file).unwrap();
-    let reader = store.reader().unwrap();
-    (0..20).for_each(|scan| drop(apply(&mut store, scan).unwrap()));
-    store.write_back().unwrap();
+    let (folder, mut store, reader) = written_back(20);
     let older = fs::read(&folder.file).unwrap();
     (20..25).for_each(|scan| drop(apply(&mut store, scan).unwrap()));
     store.write_back().unwrap();
