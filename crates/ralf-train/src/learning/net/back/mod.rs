@@ -1,9 +1,11 @@
 //! The gradient of a loss by all weights of a net: the chain rule, from the log odds back to the evidence.
 
-use ralf::learned::net::{Around, Dense, Ends, Layer, Matrix, Net, Norm, Pass, Said};
+mod dense;
+mod pairs;
 
-/// Lanes of a sum that are added up side by side.
-const LANES: usize = 8;
+use dense::{add_weights, product, through_dense};
+use pairs::through_pairs;
+use ralf::learned::net::{Around, Layer, Matrix, Net, Norm, Pass, Said};
 
 /// The gradient by each weight, as a net of the same shape, of a loss whose derivative by each log odds is `wrong`.
 pub(super) fn gradient(net: &Net, pass: &Pass, around: &Around, wrong: &[f32]) -> Net {
@@ -20,7 +22,7 @@ pub(super) fn gradient(net: &Net, pass: &Pass, around: &Around, wrong: &[f32]) -
         d.add(&before);
     }
     let d = through_relu(through_dense(&net.second, &pass.first, &d, &mut by.second), &pass.first);
-    add_weights(&pass.scores, &d, &mut by.first);
+    add_weights(pass.scores.values(), d.values(), &mut by.first);
     by
 }
 
@@ -40,47 +42,6 @@ fn through_layer(
     through_norm(&layer.norm, h, &d, &mut by.norm)
 }
 
-/// Derivatives by what both ends of pairs bring, from those by the mean and the largest of what is said; adds those by
-/// the weights of the ways.
-fn through_pairs(layer: &Layer, ends: &Ends, around: &Around, d: &Matrix, by_way: &mut Dense) -> Ends {
-    let width = ends.own.width();
-    let zeros = |like: &Matrix| Matrix::zeros(like.len(), like.width());
-    let mut by = Ends { own: zeros(&ends.own), other: zeros(&ends.other) };
-    let (mut said, mut d_said) = (vec![0.0; width], vec![0.0; width]);
-    for row in 0..ends.own.len() {
-        let (d_mean, d_most) = d.row(row).split_at(width);
-        let most = largest(layer, ends, around, row);
-        for (pair, other) in around.pairs_of(row) {
-            layer.said_of(ends, around, [row, pair], other, &mut said);
-            d_said.fill(0.0);
-            for at in (0..width).filter(|at| said[*at] > 0.0) {
-                let from_most = if most[at].0 == pair { d_most[at] } else { 0.0 };
-                let d = d_mean[at] / around.nearest() as f32 + from_most;
-                by.own.row_mut(row)[at] += d;
-                by.other.row_mut(other as usize)[at] += d;
-                d_said[at] = d;
-            }
-            add_weights_of_row(around.ways().row(pair), &d_said, by_way);
-        }
-    }
-    by
-}
-
-/// The pair of a detection of which the largest is said, number by number, and how large; the first of equal ones.
-fn largest(layer: &Layer, ends: &Ends, around: &Around, row: usize) -> Vec<(usize, f32)> {
-    let mut said = vec![0.0; ends.own.width()];
-    let mut most = vec![(usize::MAX, 0.0); said.len()];
-    for (pair, other) in around.pairs_of(row) {
-        layer.said_of(ends, around, [row, pair], other, &mut said);
-        for (most, said) in most.iter_mut().zip(&said) {
-            if *said > most.1 {
-                *most = (pair, *said);
-            }
-        }
-    }
-    most
-}
-
 /// Derivatives where numbers above 0 pass.
 fn through_relu(mut d: Matrix, made: &Matrix) -> Matrix {
     for (d, made) in d.values_mut().iter_mut().zip(made.values()) {
@@ -89,58 +50,18 @@ fn through_relu(mut d: Matrix, made: &Matrix) -> Matrix {
     d
 }
 
-/// Derivatives by what a step was given, of which it made what `d` is the derivative by; adds those by its weights.
-fn through_dense(dense: &Dense, x: &Matrix, d: &Matrix, by: &mut Dense) -> Matrix {
-    add_weights(x, d, by);
-    let mut before = Matrix::zeros(x.len(), x.width());
-    for row in 0..x.len() {
-        for (input, before) in before.row_mut(row).iter_mut().enumerate() {
-            *before = product(dense.of_input(input), d.row(row));
-        }
-    }
-    before
-}
-
-/// Adds the derivatives by the weights of a step.
-fn add_weights(x: &Matrix, d: &Matrix, by: &mut Dense) {
-    for row in 0..x.len() {
-        add_weights_of_row(x.row(row), d.row(row), by);
-    }
-}
-
-fn add_weights_of_row(x: &[f32], d: &[f32], by: &mut Dense) {
-    let outputs = by.outputs();
-    by.bias.iter_mut().zip(d).for_each(|(sum, d)| *sum += d);
-    for (sums, value) in by.by_input.chunks_exact_mut(outputs).zip(x) {
-        if *value != 0.0 {
-            sums.iter_mut().zip(d).for_each(|(sum, d)| *sum += value * d);
-        }
-    }
-}
-
-/// The sum of products, always added up in the same order.
-fn product(a: &[f32], b: &[f32]) -> f32 {
-    let (whole_a, rest_a) = a.as_chunks::<LANES>();
-    let (whole_b, rest_b) = b.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (a, b) in whole_a.iter().zip(whole_b) {
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
-        }
-    }
-    let rest: f32 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f32>() + rest
-}
-
 /// Derivatives by what was normalised; adds those by gain and shift.
 fn through_norm(norm: &Norm, x: &Matrix, d: &Matrix, by: &mut Norm) -> Matrix {
     let width = x.width() as f32;
     let mut before = Matrix::zeros(x.len(), x.width());
+    let (mut normal, mut by_normal) = (Vec::new(), Vec::new());
     for row in 0..x.len() {
         let (mean, per_deviation) = Norm::moments(x.row(row));
-        let normal: Vec<f32> = x.row(row).iter().map(|value| (value - mean) * per_deviation).collect();
         let d = d.row(row);
-        let by_normal: Vec<f32> = d.iter().zip(&norm.gain).map(|(d, gain)| d * gain).collect();
+        normal.clear();
+        normal.extend(x.row(row).iter().map(|value| (value - mean) * per_deviation));
+        by_normal.clear();
+        by_normal.extend(d.iter().zip(&norm.gain).map(|(d, gain)| d * gain));
         let mean_by = by_normal.iter().sum::<f32>() / width;
         let along = product(&by_normal, &normal) / width;
         for (at, before) in before.row_mut(row).iter_mut().enumerate() {
