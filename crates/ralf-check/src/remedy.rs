@@ -3,6 +3,13 @@
 use crate::change::SensorChange;
 use serde::Serialize;
 
+/// Whose numbers are no positions, and of which nothing else can be asked, has one of these to be looked into.
+pub(crate) const OTHER_TYPE: &str = "its file holds numbers of another type";
+pub(crate) const OTHER_ORDER: &str =
+    "the numbers of quaternions look like w, x, y, z: x, y, z, w are expected";
+pub(crate) const OTHER_WAY: &str =
+    "its mounting looks told the other way round: that of the vehicle in the sensor's frame";
+
 /// A remedy. Angles in degrees, lengths in m, times in ms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]

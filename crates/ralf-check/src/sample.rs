@@ -22,6 +22,8 @@ const LIDAR_POINTS: usize = 60_000;
 const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
 /// Which quantile of the beams' slopes counts as the steepest, so that a few odd points don't; of about so many points.
 const STEEPEST: (f64, usize) = (0.98, 2000);
+/// What a LiDAR sees nearer than this may be its own vehicle, m.
+const VEHICLE: f64 = 3.0;
 /// Points kept to be sought in images.
 const SEEN: usize = 6000;
 /// Obstacles kept to be sought in another scan.
@@ -73,6 +75,9 @@ pub(crate) struct LidarLook {
     /// The LiDAR's place (vehicle frame as recorded), and the distance from it in plan, m, at which its steepest beams
     /// come down to where obstacles begin.
     blind: (Point, f64),
+    /// How steeply its points lie below it, but for some odd ones, where they are no returns from the vehicle itself,
+    /// whose directions are off: a slope. None where nothing came back.
+    pub(crate) steepest: Option<f64>,
     /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
     /// Some of all points, vehicle frame as recorded, m, for stored depth; none where there are too few images.
@@ -92,7 +97,7 @@ pub(crate) struct CloudShape {
     pub(crate) range: f64,
     /// Share of returns more than 45 degrees above or below the sensor.
     pub(crate) steep: f64,
-    /// Share of coordinates that no LiDAR gives: beyond 1000 km, or closer to 0 than a micrometre without being it.
+    /// Share of coordinates that no LiDAR gives.
     pub(crate) absurd: f64,
 }
 
@@ -274,6 +279,7 @@ impl LidarLook {
             false => (Vec::new(), Vec::new()),
         };
         let step = obstacles.len().div_ceil(PROBES).max(1);
+        let away: Vec<Point> = points.iter().filter(|p| (*p - lidar_at).norm() > VEHICLE).copied().collect();
         Self {
             lidar,
             t_ns: read.t_ns,
@@ -281,7 +287,8 @@ impl LidarLook {
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
             seen,
-            blind: (lidar_at, blind(&points, &lidar_at, height(&lidar_at))),
+            blind: (lidar_at, blind(steepest(&points, &lidar_at), height(&lidar_at))),
+            steepest: steepest(&away, &lidar_at),
             ground,
             misread,
             shape: CloudShape::of(&read.points),
@@ -295,17 +302,27 @@ fn every_so_many(points: &[Point], count: usize) -> Vec<Point> {
     points.iter().step_by(points.len().div_ceil(count) | 1).copied().collect()
 }
 
-/// The distance at which the steepest beams of a LiDAR so high above the ground come down to where obstacles begin, m:
-/// 0 where no beam looks down, for nothing is looked over then.
-fn blind(points: &[Point], lidar: &Point, height: f64) -> f64 {
+/// The slope at which the points of a LiDAR lie below it, but for the steepest few.
+fn steepest(points: &[Point], lidar: &Point) -> Option<f64> {
     let looked = every_so_many(points, STEEPEST.1);
     let slopes: Vec<f64> =
         looked.iter().map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
-    match crate::statistics::quantile(&slopes, STEEPEST.0) {
+    crate::statistics::quantile(&slopes, STEEPEST.0)
+}
+
+/// The distance at which the steepest beams of a LiDAR so high above the ground come down to where obstacles begin, m:
+/// 0 where no beam looks down, for nothing is looked over then.
+fn blind(steepest: Option<f64>, height: f64) -> f64 {
+    match steepest {
         None => f64::INFINITY,
         Some(steepest) if steepest > 0.0 => (height - OBSTACLES.start).max(0.0) / steepest,
         Some(_) => 0.0,
     }
+}
+
+/// Whether a coordinate is none that a sensor gives: beyond 1000 km, or closer to 0 than a micrometre without being it.
+pub(crate) fn is_absurd(value: &f64) -> bool {
+    value.abs() > 1e6 || (*value != 0.0 && value.abs() < 1e-6)
 }
 
 impl CloudShape {
@@ -316,7 +333,6 @@ impl CloudShape {
             looked.iter().filter(|p| is_return(p)).map(|p| p.map(f64::from)).collect();
         let norm = |p: &[f64; 3]| p[0].hypot(p[1]).hypot(p[2]);
         let share = |count: usize, of: usize| if of == 0 { 0.0 } else { count as f64 / of as f64 };
-        let absurd = |v: &&f64| v.abs() > 1e6 || (**v != 0.0 && v.abs() < 1e-6);
         let ranges: Vec<f64> = returns.iter().map(norm).collect();
         let steep = |p: &&[f64; 3]| p[2].abs() > p[0].hypot(p[1]);
         Self {
@@ -324,7 +340,10 @@ impl CloudShape {
             returns: share(returns.len(), looked.len()),
             range: crate::statistics::median(&ranges).unwrap_or(0.0),
             steep: share(returns.iter().filter(steep).count(), returns.len()),
-            absurd: share(returns.iter().flatten().filter(absurd).count(), 3 * returns.len()),
+            absurd: share(
+                returns.iter().flatten().filter(|value| is_absurd(value)).count(),
+                3 * returns.len(),
+            ),
         }
     }
 }
@@ -359,9 +378,9 @@ mod tests {
                 let angles = (0..2000).map(|i| f64::from(i) * 0.01);
                 angles.map(|a| Point::new(8.0 * a.cos(), 8.0 * a.sin(), z)).collect::<Vec<_>>()
             };
-            assert!((blind(&ring(road), &lidar, 2.0) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
-            assert_eq!(blind(&ring(road + 2.0), &lidar, 2.0), 0.0);
-            assert_eq!(blind(&[], &lidar, 2.0), f64::INFINITY);
+            assert!((blind(steepest(&ring(road), &lidar), 2.0) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
+            assert_eq!(blind(steepest(&ring(road + 2.0), &lidar), 2.0), 0.0);
+            assert_eq!(blind(steepest(&[], &lidar), 2.0), f64::INFINITY);
         }
     }
 

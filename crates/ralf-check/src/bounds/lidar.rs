@@ -1,7 +1,7 @@
 //! A LiDAR's numbers: whether they were read as what they are.
 
-use super::{mounting, out_of_reason};
-use crate::remedy::Remedy;
+use super::out_of_reason;
+use crate::remedy::{OTHER_TYPE, Remedy};
 use crate::sample::LidarLook;
 use crate::statistics::median;
 use crate::verdict::{Question, Verdict};
@@ -17,9 +17,11 @@ const RANGES: std::ops::Range<f64> = 1.0..150.0;
 /// Sigmas of a range lie within, m: of the best and of the cheapest there are, and some more.
 const SIGMAS: std::ops::Range<f64> = 0.001..0.5;
 
+/// Beams may look down more steeply than the lowest one is said to by this, degrees: a LiDAR is tilted a little.
+const STEEPER_DEG: f64 = 5.0;
+
 pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
-    let mut verdicts = mounting(&lidar.name, &lidar.vehicle_from_lidar);
-    verdicts.extend(sigma(lidar));
+    let mut verdicts = Vec::from_iter(sigma(lidar));
     let of = |figure: fn(&LidarLook) -> f64| {
         median(&looks.iter().map(|look| figure(look)).collect::<Vec<_>>()).unwrap_or(0.0)
     };
@@ -32,7 +34,7 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
     } else if absurd > ABSURD {
         let share = absurd * 100.0;
         let evidence = format!("{share:.0} % of the coordinates are beyond 1000 km or closer to 0 than 1 um");
-        verdicts.push(doubt(evidence, Some(Remedy::LookInto("its file holds numbers of another type"))));
+        verdicts.push(doubt(evidence, Some(Remedy::LookInto(OTHER_TYPE))));
     } else if !RANGES.contains(&range) {
         let factor = [0.01, 0.001].into_iter().find(|factor| RANGES.contains(&(range * factor)));
         verdicts.push(doubt(
@@ -44,6 +46,8 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
         let evidence =
             format!("{share:.0} % of the points lie more than 45 degrees above or below the sensor");
         verdicts.push(doubt(evidence, Some(Remedy::LookInto("its rows have another number of columns"))));
+    } else {
+        verdicts.extend(lowest_beam(lidar, looks));
     }
     verdicts.extend(broken(lidar, looks, points));
     verdicts
@@ -53,6 +57,21 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
 fn sigma(lidar: &Lidar) -> Option<Verdict> {
     let value = lidar.sigma_range;
     out_of_reason(&lidar.name, ("sigma_range_m", value), &SIGMAS, [0.01, 0.001].map(|factor| value * factor))
+}
+
+/// Beams that look down more steeply than the lowest one: the blind spot, in which cameras alone are asked, would be
+/// too large.
+fn lowest_beam(lidar: &Lidar, looks: &[&LidarLook]) -> Option<Verdict> {
+    let steepest: Vec<f64> = looks.iter().filter_map(|look| look.steepest).collect();
+    let (seen, told) = (median(&steepest)?.atan().to_degrees(), lidar.lowest_beam.to_degrees());
+    if seen < told + STEEPER_DEG {
+        return None;
+    }
+    let evidence =
+        format!("lowest_beam_deg = {told}, and its points lie as steeply as {seen:.1} degrees below it");
+    let in_radians = Some(told.to_degrees()).filter(|degrees| (degrees - seen).abs() < STEEPER_DEG);
+    let remedy = Remedy::Value { key: "lowest_beam_deg", value: in_radians.unwrap_or(seen) };
+    Some(Verdict::doubt(&lidar.name, Question::Bounds, evidence, Some(remedy)))
 }
 
 /// What a broken copy or a stuck sensor leaves; `points` are the usual number of a scan.

@@ -1,13 +1,16 @@
 //! What no sensor gives and no vehicle does, whatever the scene.
 
+mod attitude;
 mod lidar;
 mod motion;
+mod mounting;
 mod radar;
 mod timing;
 
 use crate::remedy::Remedy;
 use crate::sample::Sample;
 use crate::verdict::{Question, Verdict};
+use mounting::Mountings;
 use ralf::sensors::Sequence;
 use std::ops::Range;
 
@@ -16,20 +19,23 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     let mut verdicts = motion::judge(sequence);
     let (rig, times) = (&sequence.rig, &sequence.times);
     let radars = &times.radars;
+    let mountings = Mountings::new(rig, &sample.lidars);
     for ((radar, looks), times) in rig.radars.iter().zip(&sample.radars).zip(&times.radars) {
-        let mut found = radar::judge(radar, looks, &sequence.motion);
+        let mut found = Vec::from_iter(mountings.judge(&radar.name));
+        found.extend(radar::judge(radar, looks, &sequence.motion));
         found.extend(timing::judge(&radar.name, times));
         verdicts.extend(settled(&radar.name, found));
     }
     for (i, (lidar, times)) in rig.lidars.iter().zip(&times.lidars).enumerate() {
         let looks: Vec<_> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
-        let mut found = lidar::judge(lidar, &looks);
+        let mut found = Vec::from_iter(mountings.judge(&lidar.name));
+        found.extend(lidar::judge(lidar, &looks));
         found.extend(timing::judge(&lidar.name, times));
         found.extend(timing::beside_radars(&lidar.name, times, radars));
         verdicts.extend(settled(&lidar.name, found));
     }
     for (camera, times) in rig.cameras.iter().zip(&times.cameras) {
-        let mut found = mounting(&camera.name, &camera.vehicle_from_camera);
+        let mut found = Vec::from_iter(mountings.judge(&camera.name));
         found.extend(timing::judge(&camera.name, times));
         found.extend(timing::beside_radars(&camera.name, times, radars));
         verdicts.extend(settled(&camera.name, found));
@@ -58,19 +64,4 @@ fn out_of_reason(
     let evidence = format!("{key} = {value} is out of reason ({} to {})", usual.start, usual.end);
     let remedy = other.map(|value| Remedy::Value { key, value });
     Some(Verdict::doubt(name, Question::Bounds, evidence, remedy))
-}
-
-/// A sensor farther from the rear axle than this is on no vehicle, m.
-const FARTHEST_MOUNTING: f64 = 20.0;
-
-fn mounting(name: &str, mount: &ralf::space::Transform) -> Vec<Verdict> {
-    let distance = mount.translation.vector.norm();
-    if distance <= FARTHEST_MOUNTING {
-        return Vec::new();
-    }
-    let evidence = format!(
-        "mounted {distance:.0} m from the rear axle, on no vehicle farther than {FARTHEST_MOUNTING} m"
-    );
-    let remedy = Remedy::LookInto("the translation looks like cm");
-    vec![Verdict::doubt(name, Question::Bounds, evidence, Some(remedy))]
 }

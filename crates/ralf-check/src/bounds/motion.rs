@@ -1,5 +1,6 @@
 //! What no vehicle does.
 
+use super::attitude;
 use crate::remedy::Remedy;
 use crate::statistics::{median, quantile};
 use crate::verdict::{Question, Verdict};
@@ -35,6 +36,7 @@ pub(super) fn judge(sequence: &Sequence) -> Vec<Verdict> {
     }
     verdicts.extend(stuck(motion));
     verdicts.extend(poses.jumps());
+    verdicts.extend(attitude::judge(motion.poses()));
     if verdicts.is_empty() {
         verdicts.push(Verdict::good(
             "motion",

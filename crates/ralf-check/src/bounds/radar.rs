@@ -1,9 +1,9 @@
 //! A radar's numbers.
 
-use super::{mounting, out_of_reason};
+use super::out_of_reason;
 use crate::doppler::{STANDING, predicted};
-use crate::remedy::{LENGTHS, Remedy};
-use crate::sample::RadarLook;
+use crate::remedy::{LENGTHS, OTHER_TYPE, Remedy};
+use crate::sample::{RadarLook, is_absurd};
 use crate::statistics::{median, quantile, wrapped};
 use crate::verdict::{Question, State, Verdict};
 use ralf::sensors::{Elevation, Radar};
@@ -20,11 +20,16 @@ const OUTSIDE: f64 = 0.1;
 const NOT_FINITE: (f64, f64) = (0.01, 0.2);
 /// Share of scans that may repeat the one before.
 const REPEATED: f64 = 0.05;
+/// More than this share of detections with absurd ranges is another data type.
+const ABSURD: f64 = 0.2;
 /// Fewer detections than this tell nothing of a distribution.
 const FEWEST: usize = 30;
 
 pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> Vec<Verdict> {
-    let mut verdicts = mounting(&radar.name, &radar.vehicle_from_radar);
+    if let Some(verdict) = other_type(&radar.name, looks) {
+        return vec![verdict];
+    }
+    let mut verdicts = Vec::new();
     let all: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.spherical).copied().collect();
     verdicts.extend(repeated(&radar.name, looks));
     verdicts.extend(not_finite(&radar.name, looks));
@@ -49,6 +54,19 @@ pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> V
 
 fn doubt(name: &str, evidence: String, remedy: Option<Remedy>) -> Verdict {
     Verdict::doubt(name, Question::Bounds, evidence, remedy)
+}
+
+/// Ranges of which many are none that a radar gives: of float64 read as float32, a quarter and more.
+fn other_type(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
+    let told: usize = looks.iter().map(|look| look.told.len()).sum();
+    let absurd = looks.iter().flat_map(|look| &look.told).filter(|[range, ..]| is_absurd(range)).count();
+    if told < FEWEST || (absurd as f64) < ABSURD * told as f64 {
+        return None;
+    }
+    let share = 100.0 * absurd as f64 / told as f64;
+    let evidence =
+        format!("{share:.0} % of the detections have ranges beyond 1000 km or closer to 0 than 1 um");
+    Some(doubt(name, evidence, Some(Remedy::LookInto(OTHER_TYPE))))
 }
 
 fn repeated(name: &str, looks: &[RadarLook]) -> Option<Verdict> {

@@ -11,6 +11,8 @@ use ralf::sensors::DepthOutput;
 
 /// Depth goes with the LiDAR's by more than this (rank correlation); noise doesn't, however it is read.
 const RIGHT: f64 = 0.6;
+/// By less it has nothing to do with it.
+const NOTHING: f64 = 0.2;
 /// Read otherwise, it has to go with it by so much more: upside down, a street seen to the side is half right.
 const GAIN: f64 = 0.25;
 
@@ -79,7 +81,12 @@ fn by_lidar(name: &str, looks: &[&DepthLook], knows_lidar: bool, output: DepthOu
     if as_stored > RIGHT {
         return Verdict::good(name, Question::Depth, evidence);
     }
-    Verdict::cannot_judge(name, Question::Depth, format!("{evidence}, and by no more otherwise"))
+    let evidence = format!("{evidence}, and by no more otherwise");
+    if as_stored.abs() < NOTHING {
+        let what = "is it this camera's depth, and are its mounting, lens and clock what is said?";
+        return Verdict::doubt(name, Question::Depth, evidence, Some(Remedy::LookInto(what)));
+    }
+    Verdict::cannot_judge(name, Question::Depth, evidence)
 }
 
 /// How else depth goes best with the LiDAR's, and by how much.

@@ -3,6 +3,7 @@
 use super::alternatives::{GAIN, best, clocks, elsewhere, exact, shifts, yaws};
 use super::case::Case;
 use super::doppler::is_aligned;
+use super::places::{PLACES, by_place};
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Setup, Tally, changed_motion_overlap, overlap};
 use crate::remedy::Remedy;
@@ -17,7 +18,7 @@ const STEP_DEG: i32 = 5;
 /// Another direction is the right one where so many times as much stands still, and this share of all at least.
 const STANDS_STILL: (f64, f64) = (1.5, 0.5);
 /// Of so few detections beside a LiDAR's points it doesn't see what the radars see.
-const APART: f64 = 0.02;
+pub(super) const APART: f64 = 0.02;
 
 /// Judges each LiDAR, and puts right what is found.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
@@ -29,14 +30,16 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     verdicts
 }
 
-/// What stands still passes a LiDAR against the vehicle's motion; one that is turned sees it pass another way.
+/// What stands still passes a LiDAR against the vehicle's motion; one that is turned sees it pass another way. From one
+/// place all that it sees may be a vehicle that goes its own.
 fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let recorded = case.sequence.rig.lidars[lidar].vehicle_from_lidar;
     let own: Vec<&LidarLook> = case.lidars.iter().copied().filter(|look| look.lidar == lidar).collect();
     let tally = |change: &SensorChange| changed_motion_overlap(&own, &recorded, change, &case.motion);
     let now = tally(&SensorChange::default());
+    let places = by_place(own.iter().copied(), &case.motion).len();
     // No share is larger than all.
-    if !now.is_enough() || STANDS_STILL.0 * now.share() >= 1.0 {
+    if !now.is_enough() || STANDS_STILL.0 * now.share() >= 1.0 || places < PLACES {
         return None;
     }
     let most = |mirrored: bool| {
@@ -45,16 +48,16 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
         turns.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
     };
     let (turned, mirrored) = (most(false)?, most(true)?);
-    // Where the vehicle doesn't turn both are the same.
-    let (found, then) = if turned.1.is_beaten_by(&mirrored.1) { mirrored } else { turned };
-    if !now.is_beaten_by_factor(&then, STANDS_STILL.0) {
-        return None;
-    }
-    let change = exact(found, |change| tally(change).share());
-    let then = tally(&change);
-    if then.share() < STANDS_STILL.1 {
-        return None;
-    }
+    // Where the vehicle doesn't turn both are the same, and the radars tell which is right.
+    let found = if turned.1.is_beaten_by(&mirrored.1) { [mirrored, turned] } else { [turned, mirrored] };
+    let is_right = |(found, then): (SensorChange, Tally)| {
+        let change =
+            now.is_beaten_by_factor(&then, STANDS_STILL.0).then(|| exact(found, |c| tally(c).share()))?;
+        let then = tally(&change);
+        let stands = then.share() >= STANDS_STILL.1 && !do_radars_rather_deny(case, lidar, &change);
+        stands.then_some((change, then))
+    };
+    let (change, then) = found.into_iter().find_map(is_right)?;
     let evidence = format!(
         "{:.0} % of what it saw lies on what it sees half a second later, and {:.0} % otherwise",
         now.share() * 100.0,
@@ -63,6 +66,14 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     case.lidar_changes[lidar] = change;
     let name = &case.sequence.rig.lidars[lidar].name;
     Some(Verdict::doubt(name, Question::Motion, evidence, Some(Remedy::Sensor(change))))
+}
+
+/// Whether no more of the radars' detections than now would lie beside a LiDAR's points under a change: a lone vehicle
+/// that overtakes asks for a turn that nothing else does.
+fn do_radars_rather_deny(case: &Case, lidar: usize, change: &SensorChange) -> bool {
+    let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
+    let [now, then] = [SensorChange::default(), *change].map(|change| tally(&change));
+    now.is_enough() && then.share() <= now.share()
 }
 
 /// All turns.

@@ -18,11 +18,12 @@ mod places;
 mod radar;
 mod refine;
 mod swapped;
+mod unseen;
 mod vertical;
 mod wheels;
 
 use crate::bounds;
-use crate::remedy::Remedy;
+use crate::remedy::{OTHER_ORDER, OTHER_WAY, Remedy};
 use crate::sample::Sample;
 use crate::verdict::{Question, SequenceCheck, State, Verdict};
 use case::Case;
@@ -70,7 +71,7 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
 }
 
 /// Words of remedies for what can't be asked anything else.
-const UNFIT: [&str; 3] = ["type", "columns", "cm"];
+const UNFIT: [&str; 5] = ["type", "columns", "cm", OTHER_ORDER, OTHER_WAY];
 
 /// Sensors whose numbers are no positions: nothing else can be asked of them.
 fn unfit(verdicts: &[Verdict]) -> Vec<String> {

@@ -1,12 +1,13 @@
 //! Whether a radar is where and when it is said to be: by its range rates, and by the LiDAR.
 
 use super::alternatives::{best, clocks, exact, gain_of_one, shifts, yaws};
-use super::case::Case;
+use super::case::{Case, SCANS};
 use super::doppler::{COMPENSATED, RATIO, in_words, is_aligned, is_explained};
 use super::motion::correct_range_rates;
 use super::swapped;
+use super::unseen;
 use crate::change::SensorChange;
-use crate::doppler::{DopplerFigures, Timed};
+use crate::doppler::{DopplerFigures, Timed, compare};
 use crate::overlap::{Measure, Tally};
 use crate::remedy::{Remedy, SPEEDS};
 use crate::statistics::wrapped;
@@ -65,12 +66,15 @@ fn missing(case: &Case, radar: usize) -> String {
     if sensor.column("doppler").is_none() {
         return "raw range rates are needed: a field `doppler`".into();
     }
-    format!(
-        "{} of {} scans tell a velocity: ten scans at more than 1 m/s are needed in which three in ten \
-         detections stand still",
-        case.fits[radar].len(),
-        case.sample.radars[radar].len()
-    )
+    let told =
+        format!("{} of {} scans tell a velocity", case.fits[radar].len(), case.sample.radars[radar].len());
+    let needed = "ten scans at more than 1 m/s are needed in which three in ten detections stand still";
+    let few_stand = compare(&case.fits[radar], &case.motion, &case.mount(radar)).filter(|f| f.scans >= SCANS);
+    let why = few_stand.map_or_else(String::new, |figures| {
+        let share = figures.inliers * 100.0;
+        format!(", in which {share:.0} % of the detections agree (are range rates what `doppler` holds?)")
+    });
+    format!("{told}{why}: {needed}")
 }
 
 /// What makes range rates go with the motion.
@@ -156,7 +160,7 @@ fn misfit(case: &Case, radar: usize, read: fn(Vector2<f64>) -> Vector2<f64>) -> 
         timed
     };
     let fits: Vec<Timed> = case.fits[radar].iter().map(otherwise).collect();
-    let figures = crate::doppler::compare(&fits, &case.motion, &case.mount(radar));
+    let figures = compare(&fits, &case.motion, &case.mount(radar));
     figures.filter(is_explained).map(|figures| figures.off)
 }
 
@@ -182,7 +186,7 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
     let elsewhere = case.elsewhere(radar);
     let found = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally);
     let Some((found, then)) = found.filter(|(_, then)| then.is_above_chance(&elsewhere)) else {
-        return same_world(&now, &elsewhere, name);
+        return unseen::judge(case, radar, &now).unwrap_or_else(|| same_world(&now, &elsewhere, name));
     };
     if found == SensorChange::exchange() {
         case.leave_out(radar);

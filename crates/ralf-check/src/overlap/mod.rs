@@ -8,5 +8,5 @@ mod tally;
 
 pub(crate) use motion::{changed_motion_overlap, motion_overlap, radar_motion_overlap};
 pub(crate) use neighbours::{LidarPair, RadarPair, Side};
-pub(crate) use radar_lidar::{Measure, Setup, overlap};
+pub(crate) use radar_lidar::{Measure, Setup, obstacles_in_view, overlap};
 pub(crate) use tally::Tally;

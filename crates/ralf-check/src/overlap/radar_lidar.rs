@@ -96,6 +96,19 @@ impl Way {
     }
 }
 
+/// Obstacles that LiDARs see in a radar's field of view, of those that are kept of a scan: the mean over scans.
+pub(crate) fn obstacles_in_view(setup: &Setup, radar: usize, change: &SensorChange) -> f64 {
+    let sensor = &setup.rig.radars[radar];
+    let radar_from_vehicle = change.mount(&sensor.vehicle_from_radar).inverse();
+    let is_in_view = |probe: &&Point| {
+        let own = radar_from_vehicle * *probe;
+        let is_near = (NEAREST..FARTHEST).contains(&own.coords.norm());
+        is_near && own.y.atan2(own.x).abs() < sensor.fov_azimuth / 2.0
+    };
+    let seen = setup.lidars.iter().map(|lidar| lidar.probes.iter().filter(is_in_view).count());
+    seen.sum::<usize>() as f64 / setup.lidars.len().max(1) as f64
+}
+
 fn count(
     lidar: &LidarLook,
     look: &RadarLook,

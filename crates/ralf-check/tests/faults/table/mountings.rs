@@ -1,9 +1,9 @@
 //! Mountings of radars, LiDARs and cameras.
 
-use super::planting::{exchanged, lidar_points, lidar_turned, shifted, swap, times, turned};
+use super::planting::{exchanged, lidar_points, lidar_turned, shifted, swap, times, turned, w_first};
 use super::right::{near, yaw_of};
 use super::{ALL_RADARS, FRONT, Fault, LEFT, MS};
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 use ralf_check::Remedy;
 
 pub(super) fn radars() -> Vec<Fault> {
@@ -62,14 +62,53 @@ pub(super) fn radars() -> Vec<Fault> {
         fault!("x and y exchanged, all radars", ALL_RADARS, true, |p| exchanged(p, None), |r| {
             *r == Remedy::Exchanged
         }),
-        fault!("quaternion read as w x y z", ["radar_left"], true, |p| {
-            // (0, 0, s, c) taken for w, x, y, z.
-            let mount = &mut p.sequence.rig.radars[LEFT].vehicle_from_radar;
-            let q = mount.rotation.coords;
-            mount.rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q.x, q.y, q.z, q.w));
-            mount.translation = Translation3::from(mount.translation.vector);
-        }),
+        fault!(
+            "quaternion read as w x y z",
+            ["radar_left"],
+            true,
+            |p| {
+                // (0, 0, s, c) taken for w, x, y, z.
+                let mount = &mut p.sequence.rig.radars[LEFT].vehicle_from_radar;
+                let q = mount.rotation.coords;
+                mount.rotation =
+                    UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q.x, q.y, q.z, q.w));
+            },
+            is_other_order
+        ),
+        fault!(
+            "quaternions told as w x y z",
+            ["radar_left"],
+            true,
+            |p| {
+                p.sequence.rig.radars.iter_mut().for_each(|radar| w_first(&mut radar.vehicle_from_radar));
+                p.sequence.rig.lidars.iter_mut().for_each(|lidar| w_first(&mut lidar.vehicle_from_lidar));
+            },
+            is_other_order
+        ),
+        fault!(
+            "radar below the road",
+            ["radar_front"],
+            true,
+            |p| {
+                p.sequence.rig.radars[FRONT].vehicle_from_radar.translation.z *= -1.0;
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("z down"))
+        ),
+        fault!(
+            "radar mounting the other way round",
+            ["radar_left"],
+            true,
+            |p| {
+                let mount = &mut p.sequence.rig.radars[LEFT].vehicle_from_radar;
+                *mount = mount.inverse();
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("other way round") || what.contains("z down"))
+        ),
     ]
+}
+
+fn is_other_order(remedy: &Remedy) -> bool {
+    matches!(remedy, Remedy::LookInto(what) if what.contains("w, x, y, z"))
 }
 
 pub(super) fn lidars() -> Vec<Fault> {
@@ -113,6 +152,16 @@ pub(super) fn lidars() -> Vec<Fault> {
             },
             |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[2], -0.5, 0.1))
         ),
+        fault!(
+            "LiDAR lowest beam in radians",
+            ["lidar_top"],
+            true,
+            |p| {
+                let lowest = &mut p.sequence.rig.lidars[0].lowest_beam;
+                *lowest = lowest.to_radians();
+            },
+            |r| matches!(r, Remedy::Value { key: "lowest_beam_deg", value } if near(*value, 16.0, 1.0))
+        ),
     ]
 }
 
@@ -147,6 +196,25 @@ pub(super) fn cameras() -> Vec<Fault> {
                     (cameras[2].vehicle_from_camera, cameras[1].vehicle_from_camera);
             },
             |r| matches!(r, Remedy::SwapWith(other) if other.starts_with("camera_"))
+        ),
+        fault!(
+            "camera mounting the other way round",
+            ["camera_front"],
+            true,
+            |p| {
+                let mount = &mut p.sequence.rig.cameras[FRONT].vehicle_from_camera;
+                *mount = mount.inverse();
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("other way round"))
+        ),
+        fault!(
+            "camera in the axes of other sensors",
+            ["camera_front"],
+            true,
+            |p| {
+                p.sequence.rig.cameras[FRONT].vehicle_from_camera.rotation = UnitQuaternion::identity();
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("z ahead"))
         ),
     ]
 }

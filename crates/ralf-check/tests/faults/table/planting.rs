@@ -28,6 +28,12 @@ pub(super) fn shifted(mount: &mut Transform, x: f64, y: f64, z: f64) {
     mount.translation.vector += nalgebra::Vector3::new(x, y, z);
 }
 
+/// A rotation that is told as w, x, y, z.
+pub(super) fn w_first(mount: &mut Transform) {
+    let q = mount.rotation.coords;
+    mount.rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q.z, q.w, q.x, q.y));
+}
+
 pub(super) fn lidar_turned(p: &mut Planted, roll: f64, pitch: f64, yaw: f64) {
     let mount = &mut p.sequence.rig.lidars[0].vehicle_from_lidar;
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);

@@ -3,6 +3,7 @@
 use super::planting::times;
 use super::{FRONT, Fault};
 use ralf::space::EgoMotion;
+use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
     vec![
@@ -26,6 +27,24 @@ pub(super) fn faults() -> Vec<Fault> {
             let flat: Vec<f32> = bytes.chunks_exact(4).map(word).collect();
             scan.points = flat.chunks_exact(4).map(|row| [row[0], row[1], row[2]]).collect();
         })),
+        fault!(
+            "radar float64 read as float32",
+            ["radar_front"],
+            true,
+            |p| p.edit_radars(|radar, _, columns| {
+                if radar == FRONT {
+                    *columns = as_halves(columns);
+                }
+            }),
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("another type"))
+        ),
+        fault!("radar x, y, z of range, azimuth, elevation", ["radar_front"], true, |p| p.edit_radars(
+            |radar, _, columns| {
+                if radar == FRONT {
+                    in_spherical(columns);
+                }
+            }
+        )),
         fault!("radar stuck", ["radar_front"], true, |p| p.stuck_radar = Some(FRONT)),
         fault!("LiDAR stuck", ["lidar_top"], true, |p| p.stuck_lidar = true),
         fault!("odometry stuck", ["motion"], true, |p| {
@@ -52,4 +71,31 @@ pub(super) fn faults() -> Vec<Fault> {
         )),
         fault!("yaw rate 10 times too large", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate *= 10.0)),
     ]
+}
+
+/// The numbers of a scan as float64 that are read as float32: twice as many rows.
+fn as_halves(columns: &[Vec<f32>]) -> Vec<Vec<f32>> {
+    let rows = 0..columns[0].len();
+    // A multiple of no power of two, as measured numbers are.
+    let words = rows
+        .flat_map(|row| columns.iter().flat_map(move |column| halves(f64::from(column[row]) / 3.0 * 3.1)));
+    let words: Vec<f32> = words.collect();
+    (0..columns.len())
+        .map(|column| words.iter().skip(column).step_by(columns.len()).copied().collect())
+        .collect()
+}
+
+fn halves(value: f64) -> [f32; 2] {
+    let [a, b, c, d, e, f, g, h] = value.to_le_bytes();
+    [[a, b, c, d], [e, f, g, h]].map(f32::from_le_bytes)
+}
+
+/// x, y and z become range, azimuth and elevation, rad.
+fn in_spherical(columns: &mut [Vec<f32>]) {
+    for row in 0..columns[0].len() {
+        let [x, y, z] = [0, 1, 2].map(|column| columns[column][row]);
+        let range = x.hypot(y).hypot(z);
+        let spherical = [range, y.atan2(x), (z / range).asin()];
+        spherical.into_iter().enumerate().for_each(|(column, value)| columns[column][row] = value);
+    }
 }
