@@ -132,9 +132,11 @@ fn by_sensor<R>(
     found
 }
 
-/// Names the radars that deliver no numbers, and those whose labels are unlike their sisters'.
+/// Names the radars that deliver no numbers, those whose labels are unlike their sisters', and those with hardly any
+/// plausible detection.
 fn doubtful_radars(record: &RunRecord) -> String {
     let found = record.radars_without_numbers().chain(record.radars_unlike_sisters());
+    let found = found.chain(record.radars_hardly_plausible());
     found.map(|(sequence, radar, words)| format!("\n{sequence} {radar}: {words}\n")).collect()
 }
 

@@ -2,9 +2,10 @@
 
 use crate::outcome::UsageError;
 use anyhow::Context;
+use ralf::learned::Model;
 use ralf_data::{DataError, RECORD, SENSORS, SEQUENCES};
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// What people draw and read, and lay into a folder beside what belongs there.
@@ -24,6 +25,24 @@ pub(crate) fn check_editable(argument: &str, file: &Path, read_only: &[&Path]) -
     check_output(argument, file, read_only)?;
     let edited = |error: DataError| UsageError(format!("{argument}: {error}"));
     Ok(ralf_data::refuse_edited(file).map_err(edited)?)
+}
+
+/// The same of a model: one that somebody changed, and any other text, is kept.
+pub(crate) fn check_model(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+    check_output(argument, file, read_only)?;
+    let found = match std::fs::read_to_string(file) {
+        Ok(text) if text.is_empty() || Model::is_as_written(&text) => return Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Ok(_) => "another text, or one that was changed since",
+        Err(_) => "another file",
+    };
+    let expected = "nothing yet, or a model that `ralf learn` wrote";
+    let what_to_do = "which would be lost: move it away, or choose another name";
+    Err(UsageError(format!(
+        "{argument}: {}: expected {expected}, found {found}, {what_to_do}",
+        file.display()
+    ))
+    .into())
 }
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or

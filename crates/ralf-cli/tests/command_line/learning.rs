@@ -116,6 +116,15 @@ fn what_cannot_be_learned_or_asked_is_refused_and_nothing_is_written() {
     ralf(["learn", &dataset.path, "-o", &model, "-q"]).exits(1).says(["two worlds"]);
     ralf(["learn", "-o", &model]).exits(2);
     assert!(!fs::exists(&model).unwrap());
+    // What people wrote is kept, a model that they changed too.
+    let changed = ralf::learned::Model::shipped().unwrap().to_text().replacen("seed 0", "seed 1", 1);
+    for text in ["my notes\n", changed.as_str()] {
+        fs::write(&model, text).unwrap();
+        ralf(["learn", "--preset", "worlds", "-o", &model, "-q"])
+            .exits(2)
+            .says(["a model that `ralf learn` wrote"]);
+        assert_eq!(fs::read_to_string(&model).unwrap(), text);
+    }
     for (text, expected) in [
         ("", "ralf model 1"),
         ("ralf model 2\n", "ralf model 1"),

@@ -178,6 +178,22 @@ impl RunRecord {
         })
     }
 
+    /// Radars that have numbers and hardly any plausible detection, but for those that are told as unlike the others:
+    /// sequence, radar, what there is to say.
+    pub fn radars_hardly_plausible(&self) -> impl Iterator<Item = (&str, &str, String)> {
+        self.sequences.iter().flat_map(|sequence| {
+            let is_told = |radar: &str| {
+                let mut told = sequence.without_numbers.iter().map(|found| &found.radar);
+                told.any(|name| name == radar)
+                    || sequence.unlike_sisters.iter().any(|found| found.radar == radar)
+            };
+            let radars = sequence.radars.iter().filter(move |radar| !is_told(&radar.name));
+            radars.filter_map(|radar| {
+                Some((sequence.name.as_str(), radar.name.as_str(), radar.counts().hardly_any()?))
+            })
+        })
+    }
+
     /// Scans that could not be labelled, with their sequence.
     pub fn not_labelled(&self) -> impl Iterator<Item = (&str, &NotLabelled)> {
         self.sequences

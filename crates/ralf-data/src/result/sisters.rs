@@ -10,6 +10,8 @@ const FEWEST: u64 = 500;
 /// Far: the odds of being plausible are so many times those of the sister with the highest, or those of the lowest are
 /// so many times them.
 const FAR: f64 = 2.5;
+/// Fewer plausible ones than this are hardly any, whatever others have: of real radars one in five is.
+const HARDLY_ANY: f64 = 0.01;
 
 /// What a radar's labels count.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +24,18 @@ pub(crate) struct RadarCounts<'a> {
 impl RadarCounts<'_> {
     fn share(&self) -> f64 {
         self.plausible as f64 / self.detections as f64
+    }
+
+    /// What there is to say, for people, where hardly any detection is plausible.
+    pub(crate) fn hardly_any(&self) -> Option<String> {
+        let Self { plausible, detections, .. } = *self;
+        let is_hardly_any = detections >= FEWEST && self.share() < HARDLY_ANY;
+        is_hardly_any.then(|| {
+            format!(
+                "{plausible} of its {detections} detections beside a LiDAR's scan are plausible, which is hardly any: \
+                 its mounting, its clock or its units may be wrong (`ralf check`), or something covers it"
+            )
+        })
     }
 }
 
@@ -101,6 +115,13 @@ mod tests {
         assert!(unlike(&[(220, 1000), (60, 1000)]).is_empty(), "of two nobody knows which");
         assert!(unlike(&[(220, 1000), (190, 1000), (1, 90)]).is_empty(), "too few detections");
         assert!(unlike(&[(0, 1000), (0, 1000), (0, 1000)]).is_empty());
+    }
+
+    #[test]
+    fn hardly_any_is_said_of_one_radar_alone_too() {
+        let said = |plausible, detections| RadarCounts { radar: "a", plausible, detections }.hardly_any();
+        assert!(said(0, 745).is_some_and(|words| words.starts_with("0 of its 745 detections")));
+        assert_eq!([said(10, 1000), said(0, 499), said(0, 0)], [None, None, None]);
     }
 
     #[test]

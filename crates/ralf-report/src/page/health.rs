@@ -35,6 +35,7 @@ pub(super) fn health(content: &Content) -> Markup {
             (check(content))
             (radars("Radars without numbers", content.record.radars_without_numbers()))
             (radars("Radars unlike their sisters", content.record.radars_unlike_sisters()))
+            (radars("Radars with hardly any plausible detection", content.record.radars_hardly_plausible()))
             (flags(content))
             (scans_to_look_at(content))
             (cameras(content))

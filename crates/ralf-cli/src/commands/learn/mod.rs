@@ -4,7 +4,7 @@ mod own;
 mod text;
 mod worlds;
 
-use crate::arguments::{SettingsArgs, check_output, threads};
+use crate::arguments::{SettingsArgs, check_model, threads};
 use crate::corrections::merged_truth;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
@@ -92,7 +92,7 @@ pub(crate) struct LearnArgs {
 pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let read_only: Vec<&Path> =
         arguments.datasets.iter().chain(&arguments.from).map(PathBuf::as_path).collect();
-    check_output("--output", &arguments.output, &read_only)?;
+    check_model("--output", &arguments.output, &read_only)?;
     let settings = arguments.settings.resolve()?;
     arguments.check(&settings)?;
     let stages = Stages::default();

@@ -45,6 +45,14 @@ impl Model {
     pub fn from_text(text: &str) -> Result<Self, ReadError> {
         read::model(text)
     }
+
+    /// Whether a text is a model as [`to_text`](Self::to_text) made it, and nobody changed it since.
+    pub fn is_as_written(text: &str) -> bool {
+        let end = text.lines().next_back().and_then(|end| end.strip_prefix("end "));
+        let before = || text.lines().take(text.lines().count() - 1);
+        text.lines().next() == Some(HEAD)
+            && end.is_some_and(|end| end == format!("{} {}", before().count(), checksum(before())))
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +137,14 @@ mod tests {
         for older in ["end", &format!("end {}", lines.len() - 1)] {
             let older = text.replace(lines[lines.len() - 1], older);
             assert_eq!(Model::from_text(&older), Ok(model()));
+            assert!(Model::is_as_written(&text) && !Model::is_as_written(&older));
         }
+        let changed = text.replacen(lines[1], "program mine", 1);
+        assert!(
+            !Model::is_as_written(&changed)
+                && !Model::is_as_written("")
+                && !Model::is_as_written("end 0 0\n")
+        );
     }
 
     #[test]
