@@ -4,10 +4,12 @@ use crate::errors::{data, in_file, other};
 use crate::table::{Table, table_of};
 use crate::watch::watched;
 use pyo3::prelude::*;
+use ralf::learned::Model;
 use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
-use ralf_data::run::{Earlier, read_record};
-use ralf_data::{DataError, Settings};
+use ralf_data::run::{Earlier, LabelRun, Outcome, read_record};
+use ralf_data::views::{Lacking, lacking};
+use ralf_data::{DataError, Recording, Settings};
 use ralf_files::Kind;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -76,7 +78,7 @@ fn read_settings(file: &Path) -> PyResult<String> {
     Ok(text)
 }
 
-/// Labels a recording by a job. Returns the sequences that this call has labelled, and what became of earlier results.
+/// Labels a recording by a job.
 #[pyfunction]
 #[pyo3(signature = (job, jobs=None, progress=None))]
 pub(crate) fn label(
@@ -84,13 +86,60 @@ pub(crate) fn label(
     job: ToldJob,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(Vec<String>, Vec<String>)> {
+) -> PyResult<Done> {
     let job = job.resolve()?;
-    let done = watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?;
-    Ok((done.labelled, done.earlier.told(Earlier::NOW)))
+    let (done, lacking) = watched(py, progress.as_ref(), |watch| {
+        let recording = job.open()?;
+        let model = many::model_of(job.settings.method.method, job.model.as_deref())?;
+        let run = run_of(&job, &recording, model.as_ref(), threads(jobs));
+        let stored = [&job.depth, &job.segmentation].map(Option::as_deref);
+        let lacking = lacking(&recording, stored[0], stored[1], &job.settings.method)?;
+        let done = if job.check { run.execute_and_check(watch, &|_| {}) } else { run.execute(watch) };
+        Ok((done?, lacking))
+    })?;
+    Ok(told(done, &lacking))
 }
 
-/// The parts of a job, of so many scans at most, JSON each; and what became of earlier results.
+/// What labels a recording as a job says.
+pub(crate) fn run_of<'a>(
+    job: &'a Job,
+    recording: &'a Recording,
+    model: Option<&'a Model>,
+    jobs: NonZeroUsize,
+) -> LabelRun<'a> {
+    LabelRun {
+        recording,
+        settings: &job.settings,
+        out: &job.out,
+        jobs: jobs.get(),
+        checks: &[],
+        evidence: job.evidence,
+        model,
+    }
+}
+
+/// What was done: the sequences that this call has labelled, those that were asked for, what became of earlier results,
+/// and what else there is to be warned of.
+type Done = (Vec<String>, Vec<String>, Vec<String>, Vec<String>);
+
+fn told(Outcome { record, labelled, earlier, mut warnings }: Outcome, lacking: &[Lacking]) -> Done {
+    warnings.extend(lacking_views(lacking));
+    let doubtful = record.radars_without_numbers().chain(record.radars_unlike_sisters());
+    let doubtful = doubtful.chain(record.radars_hardly_plausible());
+    warnings.extend(doubtful.map(|(sequence, radar, words)| format!("{sequence} {radar}: {words}")));
+    let asked = record.sequences.into_iter().map(|sequence| sequence.name).collect();
+    (labelled, asked, earlier.told(Earlier::NOW), warnings)
+}
+
+/// Of which cameras a store holds some images, and not all.
+fn lacking_views(lacking: &[Lacking]) -> impl Iterator<Item = String> {
+    lacking.iter().map(|Lacking { store, what, sequence, camera, missing, of, first }| {
+        let file = store.display();
+        format!("{file}: no {what} of {missing} of {of} images of {sequence} {camera}, the first is {first}")
+    })
+}
+
+/// The parts of a job, of so many scans at most, JSON each; and what there is to be warned of.
 #[pyfunction]
 #[pyo3(signature = (job, scans, jobs=None, progress=None))]
 pub(crate) fn plan(
@@ -103,7 +152,8 @@ pub(crate) fn plan(
     let job = job.resolve()?;
     let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
     let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
-    Ok((tasks, plan.earlier.told(Earlier::PLANNED)))
+    let earlier = plan.earlier.told(Earlier::PLANNED).into_iter();
+    Ok((tasks, earlier.chain(lacking_views(&plan.lacking)).collect()))
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.
@@ -120,8 +170,7 @@ pub(crate) fn label_one(
     to_json(&done.not_labelled)
 }
 
-/// Puts the parts of a job together. Returns the sequences that this call has finished, and what became of earlier
-/// results.
+/// Puts the parts of a job together.
 #[pyfunction]
 #[pyo3(signature = (out, jobs=None, progress=None))]
 pub(crate) fn assemble(
@@ -129,9 +178,9 @@ pub(crate) fn assemble(
     out: PathBuf,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(Vec<String>, Vec<String>)> {
+) -> PyResult<Done> {
     let done = watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?;
-    Ok((done.labelled, done.earlier.told(Earlier::NOW)))
+    Ok(told(done, &[]))
 }
 
 /// The output folders for which something was planned.

@@ -2,7 +2,7 @@
 
 use crate::arrays::{depth, image, numbers, rows};
 use crate::errors::{data, other};
-use crate::labelling::{ToldJob, from_json, threads};
+use crate::labelling::{ToldJob, from_json, run_of, threads, to_json};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
@@ -11,9 +11,9 @@ use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_fr
 use ralf_data::many::model_of;
 use ralf_data::read::rig_from_json;
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
-use ralf_data::run::LabelRun;
+use ralf_data::run::{CameraRecord, CheckRecord, InMemory, UnreadableScan, check_all};
 use ralf_data::{Recording, SequenceReader, write_sequence};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -58,6 +58,29 @@ pub(crate) struct MemorySequence {
     recording: Recording,
 }
 
+/// What there is to know beside a table, with the keys of `run.json`.
+#[derive(Serialize)]
+struct Told<'a> {
+    sequences: Vec<Without<'a>>,
+    check: Vec<CheckRecord>,
+    /// Sentences.
+    warnings: Vec<String>,
+}
+
+/// What a sequence was labelled without.
+#[derive(Serialize)]
+struct Without<'a> {
+    name: &'a str,
+    unreadable: &'a [UnreadableScan],
+    cameras: &'a [CameraRecord],
+}
+
+impl<'a> Without<'a> {
+    fn of(name: &'a str, InMemory { unreadable, cameras, .. }: &'a InMemory) -> Self {
+        Self { name, unreadable, cameras }
+    }
+}
+
 impl MemorySequence {
     fn sequence(&self) -> &dyn SequenceReader {
         self.recording.sequences[0].as_ref()
@@ -94,6 +117,7 @@ impl MemorySequence {
     }
 
     /// Labels all scans, with the settings, evidence and model of a job whose recording and output are not looked at.
+    /// Returns their table, and what there is to know beside it; JSON.
     #[pyo3(signature = (job, jobs=None, progress=None))]
     fn label(
         &self,
@@ -101,22 +125,22 @@ impl MemorySequence {
         job: ToldJob,
         jobs: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<Table> {
-        let job = job.resolve()?;
-        let tables = watched(py, progress.as_ref(), |watch| {
+    ) -> PyResult<(Table, String)> {
+        let (job, jobs) = (job.resolve()?, threads(jobs));
+        let (labelled, check, warnings) = watched(py, progress.as_ref(), |watch| {
+            let check = if job.check { check_all(&self.recording, jobs.get()) } else { Vec::new() };
             let model = model_of(job.settings.method.method, job.model.as_deref())?;
-            let run = LabelRun {
-                recording: &self.recording,
-                settings: &job.settings,
-                out: Path::new(""),
-                jobs: threads(jobs).get(),
-                checks: &[],
-                evidence: job.evidence,
-                model: model.as_ref(),
-            };
-            run.tables(watch)
+            let run = run_of(&job, &self.recording, model.as_ref(), jobs);
+            Ok((run.in_memory(watch)?, check, run.warnings()))
         })?;
-        py.detach(|| together(tables.into_iter().flatten().collect()))
+        let name = &self.sequence().sequence().name;
+        let told = to_json(&Told {
+            sequences: labelled.iter().map(|one| Without::of(name, one)).collect(),
+            check,
+            warnings,
+        })?;
+        let table = py.detach(|| together(labelled.into_iter().flat_map(|one| one.scans).collect()))?;
+        Ok((table, told))
     }
 
     /// Writes the sequence in the project's own layout, for every command.

@@ -65,6 +65,16 @@ impl Recording {
         self.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect()
     }
 
+    /// What its reader warns of, a sentence each, after the name of its sequence.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        let of_sequence = |reader: &dyn SequenceReader| {
+            let name = &reader.sequence().name;
+            reader.warnings().iter().map(|warning| format!("{name}: {warning}")).collect::<Vec<_>>()
+        };
+        self.recording.sequences.iter().flat_map(|reader| of_sequence(reader.as_ref())).collect()
+    }
+
     /// Sensors, times and warnings of a sequence; JSON.
     fn sequence(&self, name: &str) -> PyResult<String> {
         let reader = self.reader(name)?;

@@ -54,6 +54,33 @@ def test_numbers_of_another_shape_or_count_are_refused():
         found.add_lidar_scan("top", 0, points * 1j)
 
 
+def test_what_a_mask_hides_is_not_taken_for_measured():
+    found = sequence()
+    points = np.ma.array(np.ones((2, 3)), mask=[[False] * 3, [True] * 3])
+    far = np.ma.array([1.0, 2.0], mask=[False, True])
+    refused = "expected an array without masked values, found {} of them"
+    for place, hidden, add in (
+        ("top: points", 3, lambda: found.add_lidar_scan("top", 0, points)),
+        ("top: points", 3, lambda: found.add_lidar_scan("top", 0, list(points))),
+        ("top: intensity", 1, lambda: found.add_lidar_scan("top", 0, np.ones((2, 3)), far)),
+        ("front: xyz", 3, lambda: found.add_radar_scan("front", 0, xyz=points)),
+        ("front: doppler", 1, lambda: found.add_radar_scan("front", 0, xyz=np.ones((2, 3)), doppler=far)),
+        ("odometry: t_ns", 1, lambda: motion(ralf.Odometry(far.astype(int), [1.0, 1.0], [0.0, 0.0]))),
+        ("odometry: velocity", 1, lambda: motion(ralf.Odometry([0, 1], far, [0.0, 0.0]))),
+        ("poses", 1, lambda: motion(ralf.Poses([0], [np.ma.masked_equal(np.eye(4) + np.diag([1, 0, 0, 0]), 2)]))),
+    ):
+        with pytest.raises(ValueError) as raised:
+            add()
+        assert str(raised.value) == f"{place}: {refused.format(hidden)}"
+    # A mask that hides nothing is none.
+    found.add_radar_scan("front", 0, xyz=np.ma.array(np.ones((2, 3))), doppler=np.ma.array([1.0, 2.0], mask=False))
+    assert len(found.label()) == 2
+
+
+def motion(told):
+    return ralf.Sequence(radars=[ralf.Radar("front")], motion=told)
+
+
 @pytest.mark.parametrize(
     "t_ns", [1695.75, 1695.0, np.float64(1e9), "1695", None, 2**63, np.uint64(2**63), np.datetime64("NaT")]
 )

@@ -184,19 +184,37 @@ def test_cameras_that_do_not_fit_are_refused():
     assert len(with_image(eye, image[::-1], np.ones((48, 64)))) == 1
     with pytest.raises(TypeError, match="expected an image of uint8, found float64"):
         with_image(eye, image / 255)
-    found = "expected an image of 64 x 48 px as calibrated, found 48 x 64 px"
-    with pytest.raises(ralf.RalfError, match=f"eye: image 0: {found}"):
+    expected = r"eye: expected an image of height x width x 3, \(48, 64, 3\), found "
+    with pytest.raises(ValueError, match=expected + r"\(64, 48, 3\)"):
         with_image(eye, image.transpose(1, 0, 2))
-    with pytest.raises(ValueError, match="expected an image of height x width x 3"):
+    with pytest.raises(ValueError, match=expected + r"\(48, 64\)"):
         with_image(eye, image[..., 0])
-    with pytest.raises(ralf.RalfError, match="expected depth of 1 views, found 2"):
+    with pytest.raises(ValueError, match="eye: depth: expected 1 arrays, one for each view, found 2"):
         with_image(eye, image, np.ones((2, 48, 64)))
-    with pytest.raises(ValueError, match="expected depth of height x width"):
-        with_image(eye, image, [np.ones(3)])
     with pytest.raises(ralf.RalfError, match=r"\[\[camera\]\] eye: fx, fy: expected values above 0, found 0"):
         with_image(dataclasses.replace(eye, lens=ralf.KannalaBrandt(0, 40, 31.5, 23.5)), image)
     with pytest.raises(ralf.RalfError, match="inverse_polynomial: expected coefficients, found none"):
         with_image(dataclasses.replace(eye, lens=ralf.Scaramuzza([], [], (1, 1))), image)
+
+
+def test_depth_is_refused_where_it_is_not_as_large_as_its_view():
+    lens = ralf.Pinhole(fx=40, fy=40, cx=31.5, cy=23.5)
+    views = [ralf.View(yaw, 0.0, 60.0, 32, 24) for yaw in (-20.0, 20.0)]
+    image, whole = np.zeros((48, 64, 3), np.uint8), np.ones((24, 32))
+
+    def add(views, depth):
+        camera = ralf.Camera("eye", (0.0, 0.0, 1.0), 64, 48, lens, views)
+        ralf.Sequence(radars=[ralf.Radar("front")], cameras=[camera]).add_image("eye", 0, image, depth)
+
+    add(views, [whole, whole])
+    add([], np.ones((48, 64)))
+    expected = r"eye: depth: view {}: expected depth of height x width, \({}, {}\), found "
+    for depth in (whole.T, whole[:10, :10], np.ones(3)):
+        for given in (views, [depth, whole], 0), (views, [whole, depth], 1):
+            with pytest.raises(ValueError, match=expected.format(given[2], 24, 32)):
+                add(*given[:2])
+    with pytest.raises(ValueError, match=expected.format(0, 48, 64) + r"\(64, 48\)"):
+        add([], np.ones((64, 48)))
 
 
 def test_what_does_not_fit_is_refused():

@@ -64,6 +64,11 @@ def test_two_sensors_of_one_name_are_refused():
         ralf.Sequence(radars=[ralf.Radar("front"), ralf.Radar("front")])
     with pytest.raises(ValueError, match="expected LiDARs of different names, found two of the name top"):
         ralf.Sequence(radars=[ralf.Radar("front")], lidars=[ralf.Lidar("top"), ralf.Lidar("top")])
+    camera = ralf.Camera("front", (0.0, 0.0, 1.0), 64, 48, ralf.Pinhole(40, 40, 31.5, 23.5))
+    with pytest.raises(ValueError, match="different names, found a radar and a camera of the name front"):
+        ralf.Sequence(radars=[ralf.Radar("front")], cameras=[camera])
+    with pytest.raises(ValueError, match="different names, found a radar and a LiDAR of the name top"):
+        ralf.Sequence(radars=[ralf.Radar("top")], lidars=[ralf.Lidar("top")])
 
 
 def test_a_folder_that_nothing_was_planned_for_is_refused(tmp_path):
@@ -186,6 +191,26 @@ def test_no_threads_are_refused(drive, tmp_path, jobs):
             call()
     with pytest.raises(ValueError, match="scans: expected a number above 0, found 0"):
         ralf.plan([drive], tmp_path / "out", scans=0)
+
+
+@pytest.mark.parametrize("number", [-1, -(2**70), 2**70])
+def test_numbers_out_of_range_are_refused_by_name(drive, run, number):
+    recording = ralf.open(drive)
+    (name,) = recording.sequences
+    radar, lidar = (next(iter(sensors)) for sensors in (recording[name].radars, recording[name].lidars))
+    expected = "0 or more" if number < 0 else "at most [0-9]+"
+    for what, call in (
+        ("scan", lambda: recording.radar_scan(name, radar, number)),
+        ("scan", lambda: recording.lidar_scan(name, lidar, number)),
+        ("image", lambda: recording.image(name, "camera", number)),
+        ("scan", lambda: ralf.plot(run, name, scan=number)),
+        ("width", lambda: ralf.plot(run, name, scan=0, width=number)),
+    ):
+        with pytest.raises(ValueError, match=f"{what}: expected {expected}, found {number}"):
+            call()
+    with pytest.raises(TypeError, match=r"scan: expected a whole number, found 1\.5"):
+        recording.radar_scan(name, radar, 1.5)
+    assert recording.radar_scan(name, radar, np.int64(1)).t_ns == recording.radar_scan(name, radar, 1).t_ns
 
 
 def test_paths_of_bytes_are_taken(drive, tmp_path):

@@ -1,7 +1,8 @@
 //! Rotations and rigid transforms out of printed matrices and angles.
 
-use crate::error::DataError;
+use crate::error::{DataError, expected_and_found};
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use ralf::sensors::check_mounting;
 use ralf::space::{PoseSample, Transform};
 use std::path::Path;
 
@@ -37,6 +38,19 @@ pub(crate) fn rigid(file: &Path, place: &str, matrix: &Matrix) -> Result<Transfo
     }
     let turn = rotation(file, place, Matrix3::new(a, b, c, d, e, f, g, h, i))?;
     Ok(Transform::from_parts(Translation3::new(x, y, z), turn))
+}
+
+/// A mounting that a file tells at a place; one that no sensor has is refused, as in the project's own layout.
+pub(crate) fn mounting(
+    file: &Path,
+    place: &str,
+    vehicle_from_sensor: Transform,
+) -> Result<Transform, DataError> {
+    check_mounting(&vehicle_from_sensor).map_err(|reason| {
+        let (expected, found) = expected_and_found(&reason);
+        DataError::content(file, place, expected, found)
+    })?;
+    Ok(vehicle_from_sensor)
 }
 
 /// A place, and what is there turned to the left by so many rad.

@@ -23,6 +23,12 @@ impl Scan {
     }
 }
 
+/// A warning of so many scans whose rows are of several times, unless there are none.
+pub(crate) fn torn_scans(torn: usize) -> Option<String> {
+    let words = "of the scans, which have that of their first";
+    (torn > 0).then(|| format!("detections of several times in {torn} {words}"))
+}
+
 /// The rows of each key.
 fn runs<K: Ord + Copy>(keys: impl Iterator<Item = K>) -> BTreeMap<K, Vec<Range<usize>>> {
     let mut found: BTreeMap<K, Vec<Range<usize>>> = BTreeMap::new();

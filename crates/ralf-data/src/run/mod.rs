@@ -24,6 +24,7 @@ mod scan_log;
 mod sequences;
 mod stretch;
 mod unfinished;
+mod warnings;
 mod without;
 mod workers;
 mod workspace;
@@ -35,6 +36,7 @@ pub use crate::result::{
 
 pub use checks::check_all;
 pub use earlier::Earlier;
+pub use in_memory::InMemory;
 pub use observer::{Observer, Part, Stage, Unwatched};
 pub use place::check_output_folder;
 pub use stretch::{Planned, Stretch, StretchOutcome};
@@ -84,6 +86,8 @@ pub struct Outcome {
     /// What became of earlier results. Of those that are gone it names the sequences that were not asked for; the
     /// others are labelled anew.
     pub earlier: Earlier,
+    /// What [`LabelRun::warnings`] says.
+    pub warnings: Vec<String>,
 }
 
 /// One sequence with the sensors as the settings have them.
@@ -166,7 +170,7 @@ impl LabelRun<'_> {
         let earlier = folder.earlier().clone().and_labelled(&names);
         let mut record = folder.finish(finished, timings, checks)?;
         record.retain(|sequence| names.contains(&sequence.name));
-        Ok(Outcome { record, labelled, earlier })
+        Ok(Outcome { record, labelled, earlier, warnings: self.warnings() })
     }
 
     /// Every sequence, with the sensors as the settings have them.

@@ -8,10 +8,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
+def array(values: ArrayLike, place: str, dtype: Any = None) -> NDArray[Any]:
+    """An array, not of what a mask hides: NumPy would take what lies below the mask for measured."""
+    parts = values if isinstance(values, list | tuple) else [values]
+    masks = [np.ma.getmaskarray(part) for part in parts if isinstance(part, np.ma.MaskedArray)]
+    if hidden := sum(int(mask.sum()) for mask in masks):
+        raise ValueError(f"{place}: expected an array without masked values, found {hidden} of them")
+    return np.asarray(values, dtype)
+
+
 def own(values: ArrayLike, place: str) -> NDArray[np.float32]:
     """A copy in one piece, whatever it is a view of."""
     # NumPy would take a complex number's real part for it, and a word for the number that it spells.
-    given = np.asarray(values)
+    given = array(values, place)
     if given.dtype.kind not in "biufO":
         raise TypeError(f"{place}: expected numbers, found {given.dtype}")
     return np.array(given, dtype=np.float32, order="C")
@@ -50,7 +59,7 @@ def times_ns(values: ArrayLike, place: str) -> NDArray[np.int64]:
     Decimals are refused even where they are whole: they are seconds, or nanoseconds since 1970 that have lost their
     last digits.
     """
-    given = np.asarray(values)
+    given = array(values, place)
     if given.size == 0:
         return given.astype(np.int64)
     refused = TypeError(f"{place}: expected whole nanoseconds, found {_shown(given)}")
@@ -67,7 +76,7 @@ def times_ns(values: ArrayLike, place: str) -> NDArray[np.int64]:
 
 def finite(values: ArrayLike, rows: int, place: str) -> NDArray[np.float64]:
     """A finite number for each of so many rows, in double precision."""
-    found = np.asarray(values, dtype=np.float64)
+    found = array(values, place, np.float64)
     if found.shape != (rows,):
         shape = str(len(found)) if found.ndim == 1 else str(found.shape)
         raise ValueError(f"{place}: expected {rows} numbers, one for each time, found {shape}")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -64,7 +66,18 @@ def above_0(value: int | None, what: str) -> int | None:
     """A number of something that there has to be one of, if it is given."""
     if value is not None and value < 1:
         raise ValueError(f"{what}: expected a number above 0, found {value}")
-    return value
+    return None if value is None else whole(value, what)
+
+
+def whole(value: int, what: str, most: int = sys.maxsize) -> int:
+    """A whole number from 0 to `most`: Python's own may be below, and of any size."""
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: expected a whole number, found {value!r}") from None
+    if not 0 <= found <= most:
+        raise ValueError(f"{what}: expected {'0 or more' if found < 0 else f'at most {most}'}, found {found}")
+    return found
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Path_
+from ralf._jobs import Path_, whole
 from ralf._warnings import warn_of
 from ralf.run import Run, Scan
 
@@ -120,6 +120,8 @@ def plot(
     source = recording or run.recording
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
-    png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width)
+    number = None if scan is None else whole(scan, "scan")
+    pixels = whole(width, "width", 2**32 - 1)
+    png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, number, radar, radius, color_by, pixels)
     warn_of([f"not labelled: {one}" for one in missing])
     return Picture(png)

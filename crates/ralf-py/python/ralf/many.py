@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ralf import _ralf
+from ralf import _ralf, _told
 from ralf._jobs import Path_, Settings, above_0, job, utf8
 from ralf._progress import Progress, listener
 from ralf._warnings import warn_of
@@ -114,12 +114,12 @@ def plan(
         )
         name = Path(folder).name
         try:
-            tasks, earlier = _ralf.plan(told, scans, jobs, listener(progress))
+            tasks, warnings = _ralf.plan(told, scans, jobs, listener(progress))
         except _ralf.RalfError as error:
             found.failed[name] = str(error)
             continue
         found.tasks += map(Task, tasks)
-        warn_of([f"{name}: {what}" for what in earlier])
+        warn_of([f"{name}: {what}" for what in warnings])
     return found
 
 
@@ -133,20 +133,21 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
     """Put together what tasks have labelled, recording by recording. Scans that nobody has labelled are labelled now.
 
     A recording that can't be read is named in `failed`, and costs the others nothing. A folder that nothing was planned
-    for is refused.
+    for is refused. What `ralf.label` warns of is a warning here, after the recording's name.
     """
     found = Assembled()
     above_0(jobs, "jobs")
     for folder in _ralf.planned(os.fsdecode(out)):
         name = Path(folder).name
         try:
-            labelled, earlier = _ralf.assemble(folder, jobs, listener(progress))
+            labelled, asked, earlier, warnings = _ralf.assemble(folder, jobs, listener(progress))
         except _ralf.RalfError as error:
             found.failed[name] = str(error)
             continue
-        warn_of([f"{name}: {what}" for what in earlier])
         run = Run(folder, recording_of(folder))
-        run.labelled = labelled
+        run.labelled, run.warnings = labelled, warnings
+        told = [*earlier, *_told.warnings_of_run(run.record, asked, warnings)]
+        warn_of([f"{name}: {what}" for what in told])
         found.runs[name] = run
     return found
 

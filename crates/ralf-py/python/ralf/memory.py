@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -10,11 +11,12 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ralf import _ralf
-from ralf._arrays import column, own, time_ns
+from ralf import _ralf, _told
+from ralf._arrays import array, column, own, time_ns
 from ralf._arrays import points as points_of
 from ralf._jobs import Path_, Settings, above_0, job
 from ralf._progress import Progress, listener
+from ralf._warnings import warn_of
 from ralf.run import Scan, scans_of
 from ralf.sensors import Camera, DepthOutput, Lidar, Odometry, Poses, Radar, motion_json, sensors_json
 
@@ -24,8 +26,14 @@ Told = TypeVar("Told", Radar, Lidar, Camera)
 class Labels:
     """The labels of a sequence in memory: the table of a run, and its scans."""
 
-    def __init__(self, table: _ralf.Table, radars: Iterable[str]) -> None:
+    def __init__(self, table: _ralf.Table, radars: Iterable[str], told: dict[str, Any]) -> None:
         self.table = table
+        self.warnings: list[str] = told["warnings"]
+        """What lies outside of the known motion."""
+        self.doubts: list[tuple[str, str, str]] = _told.doubts(told)
+        """What the check says against the sequence: its name, a sensor or `motion`, and what is doubted."""
+        self.labelled_without: list[tuple[str, str, int, str]] = _told.labelled_without(told)
+        """Scans and images that can't be used, which others were labelled without: sequence, sensor, number, reason."""
         self._radars = list(radars)
 
     def scans(self, radar: str | None = None) -> Iterator[Scan]:
@@ -74,6 +82,7 @@ class Sequence:
         self._radars = _by_name(radars, "radars")
         self._lidars = _by_name(lidars, "LiDARs")
         self._cameras = _by_name(cameras, "cameras")
+        _refuse_shared({"radar": self._radars, "LiDAR": self._lidars, "camera": self._cameras})
 
     def add_radar_scan(self, radar: str, t_ns: int, xyz: ArrayLike | None = None, **fields: ArrayLike) -> None:
         """Add a scan: `xyz` (n x 3, in the radar's frame, m), or `range`, `azimuth` and `elevation` (m, rad) each.
@@ -112,13 +121,15 @@ class Sequence:
         """Add an image: height x width x 3 bytes, and what a depth network gave for it, if it was asked.
 
         `depth` is an array of height x width, or one for each of the camera's views; NaN, 0 and below mean no depth.
+        The image is as large as its camera says, and depth as its view.
         """
         sensor = _known(self._cameras, camera, "camera")
-        pixels = np.asarray(rgb)
+        pixels = array(rgb, f"{camera}: rgb")
         if pixels.dtype != np.uint8:
             raise TypeError(f"{camera}: expected an image of uint8, found {pixels.dtype}")
-        views = [depth] if isinstance(depth, np.ndarray) and depth.ndim == 2 else depth
-        told = None if views is None else [own(view, f"{camera}: depth") for view in views]
+        if pixels.shape != (size := (sensor.told.height, sensor.told.width, 3)):
+            raise ValueError(f"{camera}: expected an image of height x width x 3, {size}, found {pixels.shape}")
+        told = None if depth is None else _depth_of(sensor.told, depth)
         sensor.measured.append((time_ns(t_ns, f"{camera}: t_ns"), pixels.copy(), told))
 
     def label(
@@ -128,13 +139,21 @@ class Sequence:
         method: str | None = None,
         model: Path_ | None = None,
         evidence: bool = False,
+        check: bool = True,
         jobs: int | None = None,
         progress: Progress = None,
     ) -> Labels:
-        """Label all radar scans: what `ralf label` says of the same data."""
-        told = job("", "", settings=settings, method=method, model=model, evidence=evidence)
-        table = self._built().label(told, above_0(jobs, "jobs"), listener(progress))
-        return Labels(table, self._radars)
+        """Label all radar scans: what `ralf label` says of the same data.
+
+        What it doubts, what lies outside of the known motion, and what scans were labelled without are warnings: the
+        first few of many, and the `Labels` have all.
+        """
+        how = job("", "", settings=settings, method=method, model=model, evidence=evidence, check=check)
+        table, said = self._built().label(how, above_0(jobs, "jobs"), listener(progress))
+        told: dict[str, Any] = json.loads(said)
+        labels = Labels(table, self._radars, told)
+        warn_of(_told.warnings_of(told, [self.name], labels.warnings))
+        return labels
 
     def write(self, dataset: str | os.PathLike[str]) -> None:
         """Write the sequence in the project's own layout, which every command reads."""
@@ -166,6 +185,31 @@ def _by_name(told: Iterable[Told], kind: str) -> dict[str, _Sensor[Told]]:
             raise ValueError(f"expected {kind} of different names, found two of the name {sensor.name}")
         sensors[sensor.name] = _Sensor(sensor)
     return sensors
+
+
+def _refuse_shared(kinds: dict[str, Iterable[str]]) -> None:
+    """Refuse a name that sensors of two kinds have: it tells them apart in labels, and in files."""
+    known: dict[str, str] = {}
+    for kind, names in kinds.items():
+        for name in names:
+            if name in known:
+                found = f"a {known[name]} and a {kind} of the name {name}"
+                raise ValueError(f"expected sensors of different names, found {found}")
+            known[name] = kind
+
+
+def _depth_of(camera: Camera, depth: NDArray[Any] | Iterable[NDArray[Any]]) -> list[NDArray[np.float32]]:
+    """Depth of each of a camera's views, each as large as its view."""
+    place = f"{camera.name}: depth"
+    views = [depth] if isinstance(depth, np.ndarray) and depth.ndim == 2 else depth
+    found = [own(view, place) for view in views]
+    sizes = [(view.height, view.width) for view in camera.views] or [(camera.height, camera.width)]
+    if len(found) != len(sizes):
+        raise ValueError(f"{place}: expected {len(sizes)} arrays, one for each view, found {len(found)}")
+    for number, (view, size) in enumerate(zip(found, sizes, strict=True)):
+        if view.shape != size:
+            raise ValueError(f"{place}: view {number}: expected depth of height x width, {size}, found {view.shape}")
+    return found
 
 
 def _known(sensors: dict[str, _Sensor[Told]], name: str, kind: str) -> _Sensor[Told]:

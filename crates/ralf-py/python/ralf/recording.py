@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Job, Path_, Settings, job
+from ralf._jobs import Job, Path_, Settings, job, whole
+from ralf._told import bounded
+from ralf._warnings import warn_of
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,11 @@ class Recording:
         """The names of its sequences."""
         return self._recording.sequences
 
+    @property
+    def warnings(self) -> list[str]:
+        """What its reader ignored or misses, each after the name of its sequence."""
+        return self._recording.warnings
+
     def __getitem__(self, sequence: str) -> SequenceInfo:
         told: dict[str, Any] = json.loads(self._recording.sequence(sequence))
         times = {
@@ -86,17 +92,17 @@ class Recording:
 
     def radar_scan(self, sequence: str, radar: str, scan: int) -> RadarScan:
         """A scan of a radar."""
-        t_ns, columns = self._recording.radar_scan(sequence, radar, scan)
+        t_ns, columns = self._recording.radar_scan(sequence, radar, whole(scan, "scan"))
         return RadarScan(t_ns, {name: np.asarray(column) for name, column in columns})
 
     def lidar_scan(self, sequence: str, lidar: str, scan: int) -> LidarScan:
         """A revolution of a LiDAR."""
-        t_ns, points, intensity = self._recording.lidar_scan(sequence, lidar, scan)
+        t_ns, points, intensity = self._recording.lidar_scan(sequence, lidar, whole(scan, "scan"))
         return LidarScan(t_ns, np.asarray(points), np.asarray(intensity))
 
     def image(self, sequence: str, camera: str, image: int) -> Image:
         """An image of a camera, decoded; its depth is in metres where the recording says so, else relative."""
-        t_ns, rgb, depth = self._recording.image(sequence, camera, image)
+        t_ns, rgb, depth = self._recording.image(sequence, camera, whole(image, "image"))
         return Image(t_ns, np.asarray(rgb), None if depth is None else [np.asarray(view) for view in depth])
 
     def __repr__(self) -> str:
@@ -116,10 +122,9 @@ def open(  # noqa: A001
 ) -> Recording:
     """Open a recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds.
 
-    What its reader ignored or misses is a warning each. `settings` may correct mountings, clocks and motion.
+    What its reader ignored or misses is a warning; of many the first few are given, and `Recording.warnings` has all.
+    `settings` may correct mountings, clocks and motion.
     """
     recording = Recording(job(path, "", format=format, sequences=sequences, settings=settings))
-    for name in recording.sequences:
-        for warning in recording[name].warnings:
-            warnings.warn(f"{name}: {warning}", stacklevel=2)
+    warn_of(bounded(recording.warnings, "warnings"))
     return recording

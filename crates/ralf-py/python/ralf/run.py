@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ralf import _ralf
+from ralf import _ralf, _told
 from ralf._jobs import Path_, Settings, above_0, job
 from ralf._progress import Progress, listener
 from ralf._warnings import warn_of
@@ -105,6 +105,9 @@ class Run:
         """Where the recording lies, as far as it is known."""
         self.labelled: list[str] = []
         """Sequences that this call has labelled; the others were labelled before."""
+        self.warnings: list[str] = []
+        """What this call warns of: what readers ignored or miss, what lies outside of the known motion, and radars
+        whose labels are unlike the others'."""
         self._told = _ralf.record(self.out)
 
     @cached_property
@@ -121,16 +124,22 @@ class Run:
     @property
     def not_labelled(self) -> list[tuple[str, str, int, str]]:
         """Scans that can't be labelled: sequence, radar, scan, reason."""
-        return [
-            (sequence["name"], scan["radar"], scan["scan"], scan["reason"])
-            for sequence in self.record["sequences"]
-            for scan in sequence["not_labelled"]
-        ]
+        return _told.not_labelled(self.record)
 
     @property
     def lost(self) -> list[tuple[str, str]]:
         """What of the recording can't be read and may have held scans that nothing else tells of: sequence, what."""
-        return [(sequence["name"], what) for sequence in self.record["sequences"] for what in sequence.get("lost", [])]
+        return _told.lost(self.record)
+
+    @property
+    def labelled_without(self) -> list[tuple[str, str, int, str]]:
+        """Scans and images that can't be used, which others were labelled without: sequence, sensor, number, reason."""
+        return _told.labelled_without(self.record)
+
+    @property
+    def doubts(self) -> list[tuple[str, str, str]]:
+        """What the check says against the recording: sequence, a sensor or `motion`, and what is doubted."""
+        return _told.doubts(self.record)
 
     def radars_of(self, sequence: str) -> list[str]:
         """The names of a sequence's radars, those without any detection among them."""
@@ -192,6 +201,8 @@ def label(
     `model`, the shipped one if not given. `depth` is a folder of depth images, `segmentation` one of segmentations.
     `jobs` is the number of threads, as many as there are processors if not given. Ctrl-C stops it, and what is done is
     kept. What becomes of earlier results in `out`, those of other settings that are removed among them, is a warning.
+    So is what `ralf label` warns of: what readers ignored, what the check doubts, what could not be labelled, and what
+    others were labelled without. Of many warnings of a kind the first few are given, and the `Run` has all.
     """
     path = recording.path if isinstance(recording, Recording) else recording
     if isinstance(recording, Recording):
@@ -210,10 +221,13 @@ def label(
         evidence=evidence,
         check=check,
     )
-    labelled, earlier = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
-    warn_of(earlier)
+    labelled, asked, earlier, warnings = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
     run = Run(out, path)
-    run.labelled = labelled
+    run.labelled, run.warnings = labelled, warnings
+    # Whoever has opened the recording knows what its readers warn of.
+    known = recording.warnings if isinstance(recording, Recording) else []
+    new = [warning for warning in warnings if warning not in known]
+    warn_of([*earlier, *_told.warnings_of_run(run.record, asked, new)])
     return run
 
 

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ralf._arrays import finite, times_ns
+from ralf._arrays import array, finite, times_ns
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ def motion_json(motion: Odometry | Poses | None) -> str:
     told: dict[str, Any] = {"odometry": [], "poses": []}
     if isinstance(motion, Poses):
         times = _times(motion.t_ns, "poses")
-        poses = np.asarray(motion.poses, dtype=np.float64)
+        poses = array(motion.poses, "poses", np.float64)
         if poses.ndim == 0 or len(poses) != len(times):
             found = "one number" if poses.ndim == 0 else str(len(poses))
             raise ValueError(f"poses: expected {len(times)}, one for each time, found {found}")
@@ -207,7 +207,7 @@ def _refuse_no_number(value: Any, place: str) -> None:
 
 def _pose(mounting: ArrayLike, place: str) -> dict[str, list[float]]:
     """A translation and a quaternion (x, y, z, w), of a 4 x 4 matrix, of both in a row, or of x, y, z."""
-    given = np.asarray(mounting, dtype=np.float64)
+    given = array(mounting, place, np.float64)
     if given.shape not in {(3,), (7,), (4, 4)}:
         raise ValueError(f"{place}: expected a 4 x 4 matrix, or 3 or 7 numbers, found an array of shape {given.shape}")
     if not np.all(np.isfinite(given)):

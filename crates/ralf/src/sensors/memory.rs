@@ -169,7 +169,7 @@ impl MemorySource {
     ///
     /// # Errors
     /// A name that another sensor has, values or a mounting that no camera has, images of another size, depth of
-    /// another number of views, times that go back.
+    /// another number of views or of another size than theirs, times that go back.
     pub fn with_camera(mut self, camera: Camera, images: Vec<TimedImage>) -> Result<Self, MemoryError> {
         mounted(&camera.name, &camera.vehicle_from_camera)?;
         camera.check().map_err(|reason| refused(&camera.name, "values", &reason))?;
@@ -178,14 +178,8 @@ impl MemorySource {
             if let Err(reason) = camera.check_image(image) {
                 return wrong(reason);
             }
-            let Some(depth) = depth else { continue };
-            let views = camera.views.len().max(1);
-            if depth.len() != views {
-                return wrong(format!("expected depth of {views} views, found {}", depth.len()));
-            }
-            if let Some(view) = depth.iter().find(|view| view.values.len() != view.width * view.height) {
-                let expected = format!("{} x {} values of depth", view.width, view.height);
-                return wrong(format!("expected {expected}, found {}", view.values.len()));
+            if let Some(Err(reason)) = depth.as_ref().map(|depth| check_depth(&camera, depth)) {
+                return wrong(reason);
             }
         }
         let times = self.times(&camera.name, images.iter().map(|image| image.t_ns))?;
@@ -224,6 +218,30 @@ impl MemorySource {
 
 fn mounted(sensor: &str, vehicle_from_sensor: &Transform) -> Result<(), MemoryError> {
     check_mounting(vehicle_from_sensor).map_err(|reason| refused(sensor, "mounting", &reason))
+}
+
+/// Refuses, with what was expected and found, depth that isn't of a camera's views.
+fn check_depth(camera: &Camera, depth: &[DepthImage]) -> Result<(), String> {
+    let mut sizes: Vec<_> = camera.views.iter().map(|view| [view.width, view.height]).collect();
+    if sizes.is_empty() {
+        sizes.push([camera.width, camera.height]);
+    }
+    if depth.len() != sizes.len() {
+        return Err(format!("expected depth of {} views, found {}", sizes.len(), depth.len()));
+    }
+    for (view, (image, [width, height])) in depth.iter().zip(sizes).enumerate() {
+        if [image.width, image.height] != [width, height] {
+            let found = format!("{} x {} px", image.width, image.height);
+            return Err(format!("expected depth of {width} x {height} px for view {view}, found {found}"));
+        }
+        if image.values.len() != width * height {
+            let values = image.values.len();
+            return Err(format!(
+                "expected {width} x {height} values of depth for view {view}, found {values}"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// From a sentence that says what was expected and found.
@@ -421,7 +439,19 @@ mod tests {
         let cut = DepthImage { width: 2, height: 1, values: vec![1.0] };
         says(
             empty().with_camera(camera(), vec![image(0, Some(vec![cut]))]),
-            "eye: image 0: expected 2 x 1 values of depth, found 1",
+            "eye: image 0: expected 2 x 1 values of depth for view 0, found 1",
+        );
+        let turned = DepthImage { width: 1, height: 2, values: vec![1.0; 2] };
+        says(
+            empty().with_camera(camera(), vec![image(0, Some(vec![turned.clone()]))]),
+            "eye: image 0: expected depth of 2 x 1 px for view 0, found 1 x 2 px",
+        );
+        let view = View { yaw: 0.0, pitch: 0.0, horizontal_fov: 1.0, width: 1, height: 2 };
+        let camera = Camera { views: vec![view; 2], ..camera() };
+        let whole = DepthImage { width: 2, height: 1, values: vec![1.0; 2] };
+        says(
+            empty().with_camera(camera, vec![image(0, Some(vec![turned, whole]))]),
+            "eye: image 0: expected depth of 1 x 2 px for view 1, found 2 x 1 px",
         );
     }
     #[test]

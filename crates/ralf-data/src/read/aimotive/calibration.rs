@@ -4,7 +4,7 @@ use super::raw::{Calibration, Sensor};
 use crate::error::DataError;
 use crate::read::layout::is_folder_name;
 use crate::read::models::{PANDAR64, UMRR_11};
-use crate::read::rotation::rigid;
+use crate::read::rotation::{mounting, rigid};
 use ralf::sensors::{Camera, Intrinsics, Lidar, Radar};
 use ralf::space::Transform;
 use std::path::Path;
@@ -91,7 +91,8 @@ impl<'a> Calibrated<'a> {
 
     fn vehicle_from_sensor(&self) -> Result<Transform, DataError> {
         let matrix = self.present("RT_body_from_sensor", self.sensor.body_from_sensor)?;
-        rigid(self.file, &format!("{}, RT_body_from_sensor", self.name), &matrix)
+        let place = format!("{}, RT_body_from_sensor", self.name);
+        mounting(self.file, &place, rigid(self.file, &place, &matrix)?)
     }
 
     fn present<T>(&self, key: &str, value: Option<T>) -> Result<T, DataError> {

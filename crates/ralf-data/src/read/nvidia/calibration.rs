@@ -3,6 +3,7 @@
 use crate::disk::parquet_table::ParquetTable;
 use crate::error::DataError;
 use crate::read::nvidia::tables::nanoseconds;
+use crate::read::rotation::mounting;
 use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -29,8 +30,7 @@ impl Extrinsics {
         let mut known = self.0.borrow_mut();
         for table in tables {
             if !known.contains_key(table) {
-                // Of rows that name the same the first counts.
-                known.insert(table.clone(), mountings(table, clip)?.into_iter().rev().collect());
+                known.insert(table.clone(), mountings(table, clip)?);
             }
             if let Some(mounting) = known.get(table).and_then(|mountings| mountings.get(&key)) {
                 return Ok(Some((*mounting, table)));
@@ -45,14 +45,24 @@ const MOST_MOUNTINGS: usize = 1 << 17;
 /// The most poses of a clip.
 const MOST_POSES: usize = 1 << 20;
 
-/// All mountings of a table; those of one that names no clips are of `clip`.
-fn mountings(file: &Path, clip: &str) -> Result<Vec<([String; 2], Transform)>, DataError> {
+/// All mountings of a table; those of one that names no clips are of `clip`. Rows that name the same have to say the
+/// same: nobody could tell which is true.
+fn mountings(file: &Path, clip: &str) -> Result<Mountings, DataError> {
     let table = ParquetTable::open(file, MOST_MOUNTINGS)?;
     let poses = poses(file, &table)?;
     let sensors = table.texts("sensor_name")?;
     let clips = if table.has("clip_id") { table.texts("clip_id")? } else { vec![clip.into(); sensors.len()] };
     let named = clips.into_iter().zip(sensors).map(|(clip, sensor)| [clip.to_string(), sensor.to_string()]);
-    Ok(named.zip(poses).collect())
+    let mut found = Mountings::new();
+    for (row, (key, pose)) in named.zip(poses).enumerate() {
+        let place = format!("row {row}");
+        let pose = mounting(file, &place, pose)?;
+        let told = format!("another one of {} than in a row before", key[1]);
+        if found.insert(key, pose).is_some_and(|before| before != pose) {
+            return Err(DataError::content(file, place, "one mounting of each sensor of a clip", told));
+        }
+    }
+    Ok(found)
 }
 
 /// The poses of a table's rows.

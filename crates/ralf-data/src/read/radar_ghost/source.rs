@@ -7,7 +7,7 @@ use crate::read::last_read::LastRead;
 use crate::read::models::{GHOST_LIDAR, GHOST_RADAR};
 use crate::read::recording::{measurement, no_measurement};
 use crate::read::rotation::turned;
-use crate::read::row_scans::Scan;
+use crate::read::row_scans::{Scan, torn_scans};
 use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::Cause;
 use ralf::sensors::{
@@ -54,13 +54,7 @@ impl Standing {
         let detections = tables.detections.of(&file)?;
         let radars = detections.scans.iter().cloned().enumerate();
         let radars: Vec<(usize, Vec<Scan>)> = radars.filter(|(_, scans)| !scans.is_empty()).collect();
-        let mut warnings = Vec::new();
-        if detections.torn > 0 {
-            let torn = detections.torn;
-            warnings.push(format!(
-                "detections of several times in {torn} of the scans, which have that of their first"
-            ));
-        }
+        let warnings = torn_scans(detections.torn).into_iter().collect();
         let sequence = sequence(&file, &radars, &lidar)?;
         Ok(Self { sequence, file, tables, radars, lidar, warnings })
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 pub(super) type Sensors = BTreeMap<String, Mounting>;
 
 /// Where a radar is, relative to the middle of the rear axle, m, and where it looks, rad to the left.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 pub(super) struct Mounting {
     pub(super) id: i64,
     pub(super) x: f64,

@@ -11,12 +11,13 @@ use crate::read::last_read::LastRead;
 use crate::read::models::RADARSCENES;
 use crate::read::point_times::nanoseconds;
 use crate::read::recording::{measurement, no_measurement};
-use crate::read::rotation::turned;
+use crate::read::rotation::{mounting, turned};
 use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::UNLABELED;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
 };
+use ralf::space::Transform;
 use ralf_files::Kind;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -58,11 +59,10 @@ impl Drive {
                 let expected = "the id of a radar that has a mounting";
                 DataError::content(&scene_file, "sensor_id", expected, id.to_string())
             })?;
-            let vehicle_from_radar = turned([mounting.x, mounting.y, 0.0], mounting.yaw);
             rig.radars.push(RADARSCENES.mounted(
                 &format!("radar_{id}"),
                 &COLUMNS.map(|(_, field)| field),
-                vehicle_from_radar,
+                vehicle_from_radar(mounting),
             ));
             times.radars.push(scans.iter().map(|(t_ns, _)| *t_ns).collect());
             radars.push(scans.into_iter().map(|(_, rows)| rows).collect());
@@ -98,12 +98,28 @@ fn mountings(folder: &Path) -> Result<(Vec<Mounting>, Option<PathBuf>), DataErro
         return Ok((MOUNTINGS.to_vec(), None));
     }
     let sensors: Sensors = json::read(&file, Kind::Settings, "radars, each with id, x, y and yaw")?;
-    if let Some((name, mounting)) =
-        sensors.iter().find(|(_, at)| ![at.x, at.y, at.yaw].iter().all(|value| value.is_finite()))
-    {
-        return Err(DataError::content(&file, name, "finite numbers", format!("{mounting:?}")));
+    for (name, at) in &sensors {
+        mounting(&file, name, vehicle_from_radar(at))?;
     }
+    refuse_contradictions(&file, &sensors)?;
     Ok((sensors.into_values().collect(), Some(file)))
+}
+
+fn vehicle_from_radar(mounting: &Mounting) -> Transform {
+    turned([mounting.x, mounting.y, 0.0], mounting.yaw)
+}
+
+/// Refuses two radars of one id that are mounted in different ways: nobody could tell which is true.
+fn refuse_contradictions(file: &Path, sensors: &Sensors) -> Result<(), DataError> {
+    let mut known: BTreeMap<i64, (&str, &Mounting)> = BTreeMap::new();
+    for (name, mounting) in sensors {
+        let (other, before) = *known.entry(mounting.id).or_insert((name, mounting));
+        if before != mounting {
+            let found = format!("{}, which {other} has, too, with another mounting", mounting.id);
+            return Err(DataError::content(file, format!("{name}, id"), "an id of its own", found));
+        }
+    }
+    Ok(())
 }
 
 fn warnings(folder: &Path, without_mountings: bool) -> Result<Vec<String>, DataError> {

@@ -5,8 +5,10 @@ use super::raw::{
     for_each_row,
 };
 use crate::error::DataError;
+use ralf::sensors::check_mounting;
 use ralf::space::{PoseSample, Transform, transform_from_parts};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 
 /// A scene, as the tables know it.
@@ -208,19 +210,32 @@ fn read_samples(
 fn read_calibrations(version: &Path) -> Result<HashMap<Token, Calibration>, DataError> {
     let mut sensors = HashMap::new();
     for_each_row(&version.join("sensor.json"), |row: SensorRow| {
-        sensors.insert(row.token, (row.channel, row.modality));
-        Ok(())
+        take(&mut sensors, row.token, (row.channel, row.modality))
     })?;
     let mut calibrations = HashMap::new();
     for_each_row(&version.join("calibrated_sensor.json"), |row: CalibratedSensorRow| {
         let (name, modality) = lookup(&sensors, row.sensor_token, "sensor.json")?.clone();
         let vehicle_from_sensor = transform(row.translation, row.rotation)?;
+        check_mounting(&vehicle_from_sensor)
+            .map_err(|_| format!("{name} at {:?} m, where no sensor is mounted", row.translation))?;
         let calibration =
             Calibration { name, modality, vehicle_from_sensor, intrinsic: row.camera_intrinsic };
-        calibrations.insert(row.token, calibration);
-        Ok(())
+        take(&mut calibrations, row.token, calibration)
     })?;
     Ok(calibrations)
+}
+
+/// Takes a token's row. Another one may say the same again, but nothing else: nobody could tell which is true.
+fn take<T: PartialEq>(table: &mut HashMap<Token, T>, token: Token, row: T) -> Result<(), String> {
+    match table.entry(token) {
+        Entry::Occupied(known) if *known.get() != row => {
+            Err(format!("a second row of the token `{token}`, with other values"))
+        }
+        known => {
+            known.or_insert(row);
+            Ok(())
+        }
+    }
 }
 
 /// The row of a token; `name` is the table that should have it.

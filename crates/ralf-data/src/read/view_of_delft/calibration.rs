@@ -5,7 +5,7 @@
 
 use super::raw::{Calib, read_odom_from_camera};
 use crate::error::DataError;
-use crate::read::rotation::rotation;
+use crate::read::rotation::{mounting, rotation};
 use nalgebra::{Matrix3, Translation3};
 use ralf::sensors::{Camera, Intrinsics};
 use ralf::space::Transform;
@@ -56,7 +56,8 @@ pub(super) fn camera_from_sensor(file: &Path, calib: &Calib) -> Result<Transform
     let rectify = rotation(file, "R0_rect", Matrix3::from_row_slice(&calib.r0_rect))?;
     let [a, b, c, x, d, e, f, y, g, h, i, z] = calib.tr_velo_to_cam;
     let turn = rotation(file, "Tr_velo_to_cam", Matrix3::new(a, b, c, d, e, f, g, h, i))?;
-    Ok(rectify * Transform::from_parts(Translation3::new(x, y, z), turn))
+    let camera_from_sensor = Transform::from_parts(Translation3::new(x, y, z), turn);
+    Ok(rectify * mounting(file, "Tr_velo_to_cam", camera_from_sensor)?)
 }
 
 /// The pose of a frame's vehicle in odom.

@@ -165,6 +165,10 @@ fn damaged_calibrations_name_the_place() {
         (calib("0 -1 0 0 0 0 -1 0 1 0 0"), "00005.txt: line 4: expected `Tr_velo_to_cam:` and 12 numbers"),
         (calib("0 -1 0 0 0 0 -1 0 1 0 0 x"), "line 4"),
         (calib("0 -1 0 0 0 0 -1 0 1 0 0 NaN"), "line 4"),
+        (
+            calib("0 -1 0 1e308 0 0 -1 0 1 0 0 0"),
+            "Tr_velo_to_cam: expected at most 1000 m from the vehicle, found 1000",
+        ),
         (calib("0 -1.01 0 0 0 0 -1 0 1 0 0 0"), "Tr_velo_to_cam: expected a rotation, orthonormal within"),
         (calib("0 1 0 0 0 0 -1 0 1 0 0 0"), "determinant -1"),
         ("P2: 1\n".to_owned(), "line 1: expected `P2:` and 12 numbers, found 1"),

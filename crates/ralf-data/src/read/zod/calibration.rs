@@ -4,7 +4,7 @@ use super::radar::RADAR_FIELDS;
 use crate::disk::json;
 use crate::error::DataError;
 use crate::read::models::{GENERIC_RADAR, VLS_128};
-use crate::read::rotation::{Matrix, rigid};
+use crate::read::rotation::{Matrix, mounting, rigid};
 use ralf::sensors::{Camera, Intrinsics, Lidar, Radar};
 use ralf::space::Transform;
 use ralf_files::Kind;
@@ -54,7 +54,9 @@ impl Calibration {
     }
 
     fn mounting(&self, key: &str, matrix: &Matrix) -> Result<Transform, DataError> {
-        Ok(vehicle_from_ego() * rigid(&self.file, &format!("FC, {key}"), matrix)?)
+        let place = format!("FC, {key}");
+        let ego_from_sensor = rigid(&self.file, &place, matrix)?;
+        Ok(vehicle_from_ego() * mounting(&self.file, &place, ego_from_sensor)?)
     }
 
     /// The radar; `None` where the calibration lacks it.

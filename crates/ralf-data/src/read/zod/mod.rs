@@ -4,8 +4,9 @@
 //! - The path holds `trainval-sequences-*.json` or `trainval-drives-*.json`, which list the files of each sequence;
 //!   those whose calibration is on disk are read. A sequence has its number for a name, a drive `drive_` before it.
 //! - The vehicle frame is ZOD's ego frame, lowered from the rear axle to the road.
-//! - All scans of the radar lie in one file, and are rows with the same `scan_index`; a scan's time is its first row's.
-//!   No row is dropped, whatever its `validity`; `range_rate` is `doppler`, the raw range rate.
+//! - All scans of the radar lie in one file, and are rows with the same `scan_index`; a scan's time is its first row's,
+//!   and scans with rows of several times are warned of. No row is dropped, whatever its `validity`; `range_rate` is
+//!   `doppler`, the raw range rate.
 //! - LiDAR points carry the time at which each was measured and are moved to the scan's with the poses, unless the list
 //!   says that they are compensated. Points on the own roof, which ZOD's own tools leave out, are no returns.
 

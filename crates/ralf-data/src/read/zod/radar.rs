@@ -26,6 +26,8 @@ const COLUMNS: [&str; 8] = [
 pub(super) struct Scans {
     pub(super) times: Vec<i64>,
     pub(super) rows: Vec<Range<usize>>,
+    /// How many have rows of several times.
+    pub(super) torn: usize,
 }
 
 impl Scans {
@@ -42,9 +44,11 @@ impl Scans {
                 let expected = "a scan after the one before";
                 return Err(DataError::content(file, place, expected, format!("{t_ns} ns")));
             }
+            let end = begin + rows.len();
+            found.torn += usize::from(times[begin..end].iter().any(|time| *time != t_ns));
             found.times.push(t_ns);
-            found.rows.push(begin..begin + rows.len());
-            begin += rows.len();
+            found.rows.push(begin..end);
+            begin = end;
         }
         Ok(found)
     }

@@ -8,6 +8,7 @@ use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
 use crate::read::measured_files::{MeasuredFiles, present};
+use crate::read::row_scans::torn_scans;
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -84,6 +85,7 @@ impl Found {
         };
         let file = dataset.join(name);
         let scans = Scans::find(&file)?;
+        self.warnings.extend(torn_scans(scans.torn));
         self.rig.radars.push(radar);
         self.times.radars.push(scans.times.clone());
         self.files.radars.push(vec![file; scans.times.len()]);

@@ -102,6 +102,27 @@ fn a_calibration_that_changes_inside_a_scene_is_refused() {
 }
 
 #[test]
+fn a_second_row_of_a_token_says_the_same_or_is_refused() {
+    for (table, key, value) in [
+        ("calibrated_sensor", "translation", json!([3.0, 1.0, 0.6])),
+        ("sensor", "channel", json!("RADAR_BACK_LEFT")),
+    ] {
+        let set = DataSet::new();
+        set.edit(table, |rows| rows.push(rows[0].clone()));
+        assert!(set.open().is_ok(), "{table}");
+        set.edit(table, |rows| rows[0][key] = value);
+        set.refused(&[&format!("{table}.json: line"), "a second row of the token", "with other values"]);
+    }
+}
+
+#[test]
+fn a_sensor_far_from_the_vehicle_is_refused() {
+    let set = DataSet::new();
+    set.edit("calibrated_sensor", |rows| rows[0]["translation"][2] = json!(1e308));
+    set.refused(&["calibrated_sensor.json: line 1", "m, where no sensor is mounted"]);
+}
+
+#[test]
 fn a_scene_without_poses_is_refused() {
     let set = DataSet::new();
     set.edit("scene", |rows| {

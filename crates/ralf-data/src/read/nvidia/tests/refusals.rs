@@ -1,6 +1,8 @@
 //! What is refused, and how it is named.
 
-use super::recording::{CLIP, Columns, FRONT, Values, egomotion, extrinsics, radar, write, write_unzipped};
+use super::recording::{
+    CLIP, Columns, FRONT, REAR, Values, egomotion, extrinsics, radar, write, write_unzipped,
+};
 use crate::read::nvidia::{open, recognises};
 use std::fs;
 
@@ -74,6 +76,30 @@ fn tables_that_do_not_fit_are_named() {
     ] {
         assert!(error.contains(words), "{error} lacks {words}");
     }
+}
+
+#[test]
+fn a_second_row_of_a_sensor_says_the_same_or_is_refused() {
+    let twice = |far: f64| -> Columns {
+        let names = [FRONT, REAR, REAR].map(str::to_owned).to_vec();
+        let mut rows = vec![("sensor_name", Values::Text(names))];
+        for (name, values) in extrinsics(CLIP).into_iter().skip(2) {
+            let Values::Double(mut numbers) = values else { panic!("decimals") };
+            numbers.push(numbers[1] + if name == "x" { far } else { 0.0 });
+            rows.push((name, Values::Double(numbers)));
+        }
+        rows
+    };
+    let error = refused(CHUNK, &twice(0.1));
+    let expected = format!(
+        "row 2: expected one mounting of each sensor of a clip, found another one of {REAR} than in a row before"
+    );
+    assert!(error.ends_with(&expected), "{error}");
+    assert!(refused(CHUNK, &twice(1e308)).contains("row 2: expected at most 1000 m from the vehicle"));
+    let folder = tempfile::tempdir().unwrap();
+    write_unzipped(folder.path());
+    write(&folder.path().join(CHUNK), &twice(0.0));
+    assert!(open(folder.path()).is_ok());
 }
 
 /// Rows that are alike take no room in a file, and much in memory.

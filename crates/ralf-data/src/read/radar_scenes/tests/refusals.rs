@@ -96,6 +96,25 @@ fn strange_mountings_and_labels_are_named() {
     fs::write(&file, other.to_string()).unwrap();
     let error = open(folder.path()).map(drop).unwrap_err().to_string();
     assert!(error.contains("sensor_id: expected the id of a radar that has a mounting, found 2"), "{error}");
+    let mut twice = sensors();
+    twice["radar_3_again"] = twice["radar_3"].clone();
+    fs::write(&file, twice.to_string()).unwrap();
+    assert!(open(folder.path()).is_ok());
+    twice["radar_3_again"]["yaw"] = 2.0.into();
+    fs::write(&file, twice.to_string()).unwrap();
+    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    assert!(
+        error.ends_with(
+            "sensors.json: radar_3_again, id: expected an id of its own, \
+             found 3, which radar_3 has, too, with another mounting"
+        ),
+        "{error}"
+    );
+    let mut far = sensors();
+    far["radar_2"]["x"] = 1e308.into();
+    fs::write(&file, far.to_string()).unwrap();
+    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    assert!(error.contains("sensors.json: radar_2: expected at most 1000 m from the vehicle"), "{error}");
     fs::write(&file, "{\"radar_2\": {\"id\": 2}}").unwrap();
     let error = open(folder.path()).map(drop).unwrap_err().to_string();
     assert!(error.contains("sensors.json: line 1, column") && error.contains("missing field `x`"), "{error}");

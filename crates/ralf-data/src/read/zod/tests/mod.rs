@@ -136,6 +136,24 @@ fn old_downloads_are_told_what_they_lack() {
 }
 
 #[test]
+fn a_scan_of_several_times_is_told() {
+    let set = DataSet::new();
+    let file = set.file("radar_front", 0);
+    let mut bytes = fs::read(&file).unwrap();
+    // The second row of the first scan, 1 ms later.
+    let rows: usize = DETECTIONS.iter().sum();
+    let time = bytes.len() - (rows - 1) * 35 + 4;
+    bytes[time..time + 8].copy_from_slice(&(T0 + 1_000_000).to_le_bytes());
+    testing::write(&file, &bytes);
+    let reader = set.open().unwrap();
+    assert_eq!(
+        reader.warnings(),
+        ["detections of several times in 1 of the scans, which have that of their first"]
+    );
+    assert_eq!(reader.sequence().times.radars[0][0], T0);
+}
+
+#[test]
 fn what_is_damaged_names_file_and_place() {
     let change = |name: &str, change: &dyn Fn(&mut Value), words: &[&str]| {
         let set = DataSet::new();
@@ -152,6 +170,11 @@ fn what_is_damaged_names_file_and_place() {
         &calibration,
         &|v| v["FC"]["lidar_extrinsics"][0][0] = json!(3.0),
         &["FC, lidar_extrinsics", "a rotation"],
+    );
+    change(
+        &calibration,
+        &|v| v["FC"]["radar_extrinsics"][1][3] = json!(1e308),
+        &["calibration.json: FC, radar_extrinsics: expected at most 1000 m from the vehicle, found 1000"],
     );
     change(&calibration, &|v| v["FC"]["image_dimensions"][0] = json!(0), &["numbers above 0"]);
     change(
