@@ -94,12 +94,7 @@ fn unusable_images(sequence: &str, cameras: &[CameraRecord]) -> impl Iterator<It
 
 /// Says of which cameras a store holds some images, and not all.
 pub(crate) fn say_lacking(lacking: &[Lacking]) {
-    for Lacking { store, what, sequence, camera, missing, of, first } in lacking {
-        let file = store.display();
-        say(&format!(
-            "{file}: no {what} of {missing} of {of} images of {sequence} {camera}, the first is {first}"
-        ));
-    }
+    lacking.iter().for_each(|lacking| say(&lacking.words()));
 }
 
 /// What could not be labelled, a line each: scans, and what may have held some.
@@ -135,9 +130,10 @@ fn by_sensor<R>(
 /// Names the radars that deliver no numbers, those whose labels are unlike their sisters', and those with hardly any
 /// plausible detection.
 fn doubtful_radars(record: &RunRecord) -> String {
-    let found = record.radars_without_numbers().chain(record.radars_unlike_sisters());
-    let found = found.chain(record.radars_hardly_plausible());
-    found.map(|(sequence, radar, words)| format!("\n{sequence} {radar}: {words}\n")).collect()
+    record
+        .doubtful_radars()
+        .map(|(sequence, radar, words)| format!("\n{sequence} {radar}: {words}\n"))
+        .collect()
 }
 
 /// Names the cameras that labelling was allowed to ask and that had nothing to say.

@@ -123,20 +123,12 @@ pub(crate) fn run_of<'a>(
 type Done = (Vec<String>, Vec<String>, Vec<String>, Vec<String>);
 
 fn told(Outcome { record, labelled, earlier, mut warnings }: Outcome, lacking: &[Lacking]) -> Done {
-    warnings.extend(lacking_views(lacking));
-    let doubtful = record.radars_without_numbers().chain(record.radars_unlike_sisters());
-    let doubtful = doubtful.chain(record.radars_hardly_plausible());
-    warnings.extend(doubtful.map(|(sequence, radar, words)| format!("{sequence} {radar}: {words}")));
+    warnings.extend(lacking.iter().map(Lacking::words));
+    warnings.extend(
+        record.doubtful_radars().map(|(sequence, radar, words)| format!("{sequence} {radar}: {words}")),
+    );
     let asked = record.sequences.into_iter().map(|sequence| sequence.name).collect();
     (labelled, asked, earlier.told(Earlier::NOW), warnings)
-}
-
-/// Of which cameras a store holds some images, and not all.
-fn lacking_views(lacking: &[Lacking]) -> impl Iterator<Item = String> {
-    lacking.iter().map(|Lacking { store, what, sequence, camera, missing, of, first }| {
-        let file = store.display();
-        format!("{file}: no {what} of {missing} of {of} images of {sequence} {camera}, the first is {first}")
-    })
 }
 
 /// The parts of a job, of so many scans at most, JSON each; and what there is to be warned of.
@@ -153,7 +145,7 @@ pub(crate) fn plan(
     let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
     let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
     let earlier = plan.earlier.told(Earlier::PLANNED).into_iter();
-    Ok((tasks, earlier.chain(lacking_views(&plan.lacking)).collect()))
+    Ok((tasks, earlier.chain(plan.lacking.iter().map(Lacking::words)).collect()))
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.

@@ -162,6 +162,12 @@ impl RunRecord {
         self.check.retain(|check| left.contains(check.sequence.as_str()));
     }
 
+    /// Radars whose labels are to be doubted, each for one of the reasons below: sequence, radar, what there is to say.
+    pub fn doubtful_radars(&self) -> impl Iterator<Item = (&str, &str, String)> {
+        let told = self.radars_without_numbers().chain(self.radars_unlike_sisters());
+        told.chain(self.radars_hardly_plausible())
+    }
+
     /// Radars that have detections and no numbers: sequence, radar, what there is to say.
     pub fn radars_without_numbers(&self) -> impl Iterator<Item = (&str, &str, String)> {
         self.sequences.iter().flat_map(|sequence| {

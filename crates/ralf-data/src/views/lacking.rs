@@ -30,6 +30,15 @@ pub struct Lacking {
     pub first: usize,
 }
 
+impl Lacking {
+    /// For people.
+    pub fn words(&self) -> String {
+        let Self { store, what, sequence, camera, missing, of, first } = self;
+        let file = store.display();
+        format!("{file}: no {what} of {missing} of {of} images of {sequence} {camera}, the first is {first}")
+    }
+}
+
 /// The images, camera and number, that are nearest to some radar scan within a tolerance in ms: those that labelling
 /// asks for.
 pub fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Vec<(usize, usize)> {

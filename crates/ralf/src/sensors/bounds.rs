@@ -13,6 +13,7 @@ pub const MOST_PIXELS: usize = 16_384;
 pub fn check_mounting(vehicle_from_sensor: &Transform) -> Result<(), String> {
     check_rigid(vehicle_from_sensor)?;
     match vehicle_from_sensor.translation.vector.iter().find(|value| value.abs() > FARTHEST) {
+        Some(far) if far.abs() >= 1e9 => Err(format!("at most {FARTHEST} m from the vehicle, found {far:e}")),
         Some(far) => Err(format!("at most {FARTHEST} m from the vehicle, found {far}")),
         None => Ok(()),
     }
