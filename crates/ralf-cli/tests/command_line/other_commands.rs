@@ -103,6 +103,36 @@ fn converting_the_own_layout_changes_no_measurement() {
     assert!(one == other);
 }
 
+/// A motion that a sequence is without is as much a part of it.
+#[test]
+fn a_sequence_with_more_than_is_to_be_written_is_another_one() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let copy = dataset.beside("copy");
+    let convert = || ralf(["convert", &dataset.path, "-o", &copy]);
+    convert().exits(0);
+    let refused = |file: &str| {
+        let found = format!("another one: its {file} is no part of it");
+        convert().exits(1).ends_with_error(["sequences/00: folder: expected none of this name yet", &found]);
+    };
+    for file in ["poses.csv", "lidar_top/000000.time"] {
+        let there = format!("{copy}/sequences/00/{file}");
+        fs::write(&there, "").unwrap();
+        refused(file);
+        fs::remove_file(there).unwrap();
+    }
+    // What people add of the same measurements stays.
+    for file in ["lidar_top/000000.label", "ground_truth/radar_front/000000.cause"] {
+        fs::write(format!("{copy}/sequences/00/{file}"), "").unwrap();
+    }
+    fs::remove_file(dataset.file("ground_truth/radar_left/000000.label")).unwrap();
+    convert().exits(0).says(["kept as it is"]);
+    let odometry = fs::read(dataset.file("odometry.csv")).unwrap();
+    fs::remove_file(dataset.file("odometry.csv")).unwrap();
+    refused("odometry.csv");
+    dataset.put("odometry.csv", odometry);
+    convert().exits(0).says(["kept as it is"]);
+}
+
 #[test]
 fn a_conversion_overwrites_nothing() {
     let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });

@@ -1,6 +1,6 @@
 //! ROS recordings: from a first look to labels. The small files are of other programs (`testdata/make_ros.py`).
 
-use crate::support::{Dataset, ROS_TOPICS, ralf, rows};
+use crate::support::{Dataset, ROS_TOPICS, ralf, rows, tree};
 use std::fs;
 use std::path::Path;
 
@@ -127,5 +127,41 @@ fn a_sensor_without_measurements_is_read_back() {
         let toml = fs::read_to_string(Path::new(&again).join("sequences/drive/sequence.toml")).unwrap();
         assert!(toml.contains("name = \"radar_left\"") && toml.contains("name = \"lidar_top\""), "{toml}");
         fs::remove_file(settings).unwrap();
+    }
+}
+
+/// What the settings alter is not copied from the messages as they are, neither as a recording nor beside labels.
+#[test]
+fn what_is_corrected_is_written_so_to_the_same_kind() {
+    let dataset = Dataset::new();
+    let place = |name: &str| dataset.beside(name);
+    let corrections = "\n[corrections.radar_front]\nadd_yaw_deg = 5.0\ntime_offset_ms = 40.0\ndoppler_factor = 2.0\n\
+                       \n[corrections.lidar_top]\nadd_translation = [0.0, 0.0, 0.5]\n\n[motion]\nspeed_factor = 1.5\n";
+    for (ending, format) in [("mcap", "mcap"), ("bag", "rosbag1")] {
+        let at = |name: &str| place(&format!("{ending}-{name}.{ending}"));
+        let [drive, fixed, labelled, copy] = ["drive", "fixed", "labelled", "copy"].map(at);
+        let [topics, fixes, out] =
+            ["drive.toml", "fixes.toml", "out"].map(|name| place(&format!("{ending}-{name}")));
+        ralf(["convert", &dataset.path, "-o", &drive, "-q"]).exits(0);
+        fs::write(&fixes, fs::read_to_string(&topics).unwrap() + corrections).unwrap();
+        ralf(["convert", &drive, "--config", &fixes, "-o", &fixed, "-q"]).exits(0);
+        ralf(["label", &drive, "--config", &fixes, "-o", &out, "--no-check", "-q"]).exits(0);
+        ralf(["export", &drive, &out, "--to", format, "--sensors", "-o", &labelled, "-q"]).exits(0);
+        ralf(["convert", &drive, "--topics", &topics, "-o", &copy, "-q"]).exits(0);
+        assert!(!fs::exists(place(&format!("{ending}-copy.toml"))).unwrap(), "those of the original hold");
+        // Each as it is then read, without its corrections.
+        let read = |file: &str, settings: &str| {
+            let own = format!("{file}-read");
+            ralf(["convert", file, "--config", settings, "-o", &own, "-q"]).exits(0);
+            let sequence = Path::new(file).file_stem().unwrap().to_str().unwrap();
+            let mut read = tree(format!("{own}/sequences/{sequence}"));
+            let toml = String::from_utf8(read.remove("sequence.toml").flatten().unwrap()).unwrap();
+            // The first lines tell how many topics there are.
+            (read, toml.split_once("[[radar]]").unwrap().1.to_owned())
+        };
+        let expected = read(&drive, &fixes);
+        assert!(expected != read(&copy, &topics));
+        assert!(read(&fixed, &place(&format!("{ending}-fixed.toml"))) == expected, "{ending}");
+        assert!(read(&labelled, &topics) == expected, "{format}");
     }
 }

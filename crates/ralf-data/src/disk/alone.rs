@@ -23,6 +23,16 @@ pub(crate) fn open_alone(path: &Path) -> Result<File, Error> {
     }
 }
 
+/// Does something while nobody else does who names the same file: others wait. It is gone afterwards.
+pub(crate) fn alone<T>(path: &Path, work: impl FnOnce() -> T) -> Result<T, Error> {
+    let open = open_alone(path)?;
+    let done = work();
+    // It stays open, and with it locked, until it is gone; one that stays is in nobody's way.
+    drop(fs::remove_file(path));
+    drop(open);
+    Ok(done)
+}
+
 fn open_existing(path: &Path) -> Result<File, Error> {
     if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
         unless(ErrorKind::NotFound, fs::remove_file(path))?;

@@ -58,6 +58,18 @@ const RADAR: &str = "a radar";
 const LIDAR: &str = "a LiDAR";
 const CAMERA: &str = "a camera";
 
+/// What settings alter of a recording: whether its own messages, copied as they are, still say what is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Altered {
+    /// Nothing: they do.
+    #[default]
+    Nothing,
+    /// How well sensors measure, of which no message tells.
+    Models,
+    /// Where sensors are, when or what they measured, or how the vehicle moved.
+    Measurements,
+}
+
 /// Where the vehicle's motion comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

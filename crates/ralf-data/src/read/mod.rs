@@ -32,7 +32,7 @@ pub(crate) mod view_origin;
 mod zod;
 
 pub(crate) use corrected::corrected;
-pub use corrections::{MotionSettings, MotionSource, SensorCorrection};
+pub use corrections::{Altered, MotionSettings, MotionSource, SensorCorrection};
 pub use incomplete::Incomplete;
 pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};

@@ -2,7 +2,7 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use crate::read::corrections::MotionSource;
+use crate::read::corrections::{Altered, MotionSource};
 use crate::read::incomplete::Incomplete;
 use ralf::label::Cause;
 use ralf::sensors::{LidarScan, Sequence, Source, SourceError};
@@ -77,6 +77,11 @@ pub trait SequenceReader: Source {
     /// that format asks for the type that its reader hands out.
     fn origin(&self) -> Option<&dyn Any> {
         self.inner().and_then(|inner| inner.origin())
+    }
+
+    /// What settings alter of what [`origin`](Self::origin) holds. The names of scans and how many there are stay.
+    fn altered(&self) -> Altered {
+        self.inner().map_or(Altered::Nothing, |inner| inner.altered())
     }
 
     /// Whether any image of a camera has depth: without it, labelling doesn't use the camera.

@@ -8,9 +8,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{OutFolder, SequenceNames, WriterLock, own_folder, refuse_links_out};
-use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES};
-use crate::truth::names_of_causes;
-use ralf_files::Kind;
+use crate::tree::SEQUENCES;
 use ralf_jobs::side_by_side;
 use std::fs;
 use std::path::Path;
@@ -65,7 +63,7 @@ pub fn write_sequence_with(
     });
     if written.is_err() {
         // The unfinished folder is of no use to anyone; the error that matters is the first one.
-        let _ = fs::remove_dir_all(part.path());
+        let _ = own_folder::remove(part.path(), MARK);
     }
     written
 }
@@ -94,23 +92,9 @@ impl Writer<'_> {
             (self.progress)(*done);
             Ok::<(), DataError>(())
         })?;
-        self.names_of_causes()
-    }
-
-    /// `ground_truth/causes.txt` where causes are known: line n names the cause n.
-    fn names_of_causes(&self) -> Result<(), DataError> {
-        let file = self.folder.own(GROUND_TRUTH).own_file(CAUSE_NAMES);
-        if let Some(names) = self.reader.cause_names_file() {
-            let text = files::read_text(&names, Kind::Settings)?;
-            // It may be a link to anything, and what is none of the recording's goes nowhere.
-            names_of_causes(&names, &text)?;
-            return files::write_whole(&file, text.as_bytes());
+        match contents.names_of_causes()? {
+            Some((file, names)) => files::write_whole(&file, &names),
+            None => Ok(()),
         }
-        let causes = self.reader.causes();
-        if causes.is_empty() {
-            return Ok(());
-        }
-        let names: String = causes.iter().map(|cause| format!("{}\n", cause.name())).collect();
-        files::write_whole(&file, names.as_bytes())
     }
 }

@@ -6,10 +6,14 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::view_origin::note_of;
 use crate::result::{Component, OutFolder, SequenceNames, checked};
-use crate::tree::{DEPTH, GROUND_TRUTH, LABELS, SEGMENTATION};
-use crate::truth::{cause_names, check_codes};
+use crate::tree::{CAUSE_NAMES, DEPTH, GROUND_TRUTH, LABELS, SEGMENTATION};
+use crate::truth::{cause_names, check_codes, names_of_causes};
 use ralf::sensors::{SourceError, Timelines};
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
+
+/// The ending of when each point of a LiDAR's scan was measured.
+const POINT_TIMES: &str = "time";
 
 /// A measurement: its sensor's place in the rig, and its own in the sensor's timeline.
 #[derive(Clone, Copy)]
@@ -96,15 +100,41 @@ impl<'a> Contents<'a> {
         files.map_err(|error| DataError::Measurement { sensor: sensor.as_str().to_owned(), index, error })
     }
 
-    /// What lies beside an image that is no part of the sequence: depth or a segmentation, other than what a network
-    /// made of the image later and left a note of.
-    pub(super) fn not_of(&self, measurement: Measurement, own: &[Content]) -> Option<PathBuf> {
-        let Measurement::Camera(camera, image) = measurement else { return None };
-        let folder = self.folder.folder(&self.names.cameras[camera]);
-        let views = [(DEPTH, "npy"), (SEGMENTATION, "png")];
-        let files = views.map(|(kind, ending)| folder.own(kind).file(&Component::numbered(image, ending)));
-        let is_other = |file: &PathBuf| own.iter().all(|(known, _)| known != file) && !note_of(file).exists();
-        files.into_iter().find(|file| file.exists() && is_other(file))
+    /// What may lie beside a measurement that has it, and changes its labels: times of points, depth and a segmentation,
+    /// other than what a network made of the image later and left a note of. Truth and classes of points say nothing
+    /// of other measurements, and people add such.
+    pub(super) fn beside(&self, measurement: Measurement) -> Vec<PathBuf> {
+        let SequenceNames { lidars, cameras, .. } = self.names;
+        match measurement {
+            Measurement::Radar(..) => Vec::new(),
+            Measurement::Lidar(lidar, scan) => {
+                let folder = self.folder.folder(&lidars[lidar]);
+                vec![folder.file(&Component::numbered(scan, POINT_TIMES))]
+            }
+            Measurement::Camera(camera, image) => {
+                let folder = self.folder.folder(&cameras[camera]);
+                let views = [(DEPTH, "npy"), (SEGMENTATION, "png")].into_iter();
+                let files =
+                    views.map(|(kind, ending)| folder.own(kind).file(&Component::numbered(image, ending)));
+                files.filter(|file| !note_of(file).exists()).collect()
+            }
+        }
+    }
+
+    /// `ground_truth/causes.txt` where causes are known: line n names the cause n.
+    ///
+    /// # Errors
+    /// It can't be read.
+    pub(super) fn names_of_causes(&self) -> Result<Option<Content>, DataError> {
+        let file = self.folder.own(GROUND_TRUTH).own_file(CAUSE_NAMES);
+        if let Some(names) = self.reader.cause_names_file() {
+            let text = files::read_text(&names, Kind::Settings)?;
+            // It may be a link to anything, and what is none of the recording's goes nowhere.
+            names_of_causes(&names, &text)?;
+            return Ok(Some((file, text.into_bytes())));
+        }
+        let names: String = self.reader.causes().iter().map(|cause| format!("{}\n", cause.name())).collect();
+        Ok((!names.is_empty()).then(|| (file, names.into_bytes())))
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<Vec<Content>, SourceError> {
@@ -146,7 +176,7 @@ impl<'a> Contents<'a> {
         let mut found = vec![(folder.file(&Component::numbered(scan, "bin")), files::f32_bytes(values))];
         if let Some(times) = read.times {
             let times = files::f32_bytes(times.into_iter());
-            found.push((folder.file(&Component::numbered(scan, "time")), times));
+            found.push((folder.file(&Component::numbered(scan, POINT_TIMES)), times));
         }
         let labels = match (self.reader.lidar_label_file(lidar, scan), read.classes) {
             (Some(label_file), _) => files::read(&label_file)?,

@@ -1,20 +1,20 @@
 //! Whether a sequence was written before.
 
-use super::measurements::{Contents, Measurement};
+use super::measurements::{Content, Contents, Measurement};
 use super::metadata::texts;
 use super::target::refuse_other_folder;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::{OutFolder, SequenceNames};
-use crate::tree::SEQUENCES;
+use crate::tree::{ODOMETRY, POSES, SEQUENCES};
 use ralf_jobs::side_by_side;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion, the times of all
 /// measurements, and some of these tell: the first, the middle and the last scan of each radar and LiDAR with their
-/// truth, and the first image of each camera with its depth and segmentation, or without. A sequence is put in its
-/// place whole, so one that is there is finished.
+/// truth, and the first image of each camera. Motion, times of points, depth and segmentations are there or not there as
+/// they would be written. A sequence is put in its place whole, so one that is there is finished.
 ///
 /// # Errors
 /// Another sequence of this name, or anything else, lies there; `DATASET` holds labels or is a recording of another
@@ -48,26 +48,32 @@ fn has(
     if !folder.path().exists() {
         return Ok(false);
     }
-    for (file, text) in texts(reader.sequence(), &names, &folder)? {
-        refuse_another(&folder, &file, text.as_bytes())?;
-    }
     let contents = Contents::new(reader, &names, &folder)?;
+    let texts = texts(reader.sequence(), &names, &folder)?.into_iter();
+    let own: Vec<_> = texts.map(|(file, text)| (file, text.into_bytes())).collect();
+    refuse_another(&folder, &own, [ODOMETRY, POSES].map(|name| folder.own_file(name)))?;
+    refuse_another(&folder, contents.names_of_causes()?.as_slice(), [])?;
     side_by_side(measurements, jobs, |measurement| {
-        let files = contents.of(*measurement)?;
-        files.iter().try_for_each(|(file, bytes)| refuse_another(&folder, file, bytes))?;
-        match contents.not_of(*measurement, &files) {
-            Some(file) => Err(another(&folder, &file, "is no part of it")),
-            None => Ok(()),
-        }
+        refuse_another(&folder, &contents.of(*measurement)?, contents.beside(*measurement))
     })?;
     Ok(true)
 }
 
-fn refuse_another(folder: &OutFolder, file: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    if files::read(file).is_ok_and(|found| found == bytes) {
-        return Ok(());
+/// Refuses other files than these, and such as not every sequence has and this one hasn't.
+fn refuse_another(
+    folder: &OutFolder,
+    own: &[Content],
+    possible: impl IntoIterator<Item = PathBuf>,
+) -> Result<(), DataError> {
+    let is_same = |file: &Path, bytes: &[u8]| files::read(file).is_ok_and(|found| found == bytes);
+    if let Some((file, _)) = own.iter().find(|(file, bytes)| !is_same(file, bytes)) {
+        return Err(another(folder, file, "differs"));
     }
-    Err(another(folder, file, "differs"))
+    let is_own = |file: &PathBuf| own.iter().any(|(known, _)| known == file);
+    match possible.into_iter().find(|file| file.exists() && !is_own(file)) {
+        Some(file) => Err(another(folder, &file, "is no part of it")),
+        None => Ok(()),
+    }
 }
 
 fn another(folder: &OutFolder, file: &Path, how: &str) -> DataError {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// A sequence that ROS can hold: no time before 1970, and a camera without views.
-fn sequence() -> (TempDir, PathBuf) {
+pub(crate) fn sequence() -> (TempDir, PathBuf) {
     let (folder, path) = tiny();
     write(&path.join("radar_rear/timestamps.txt"), "7\n30000000\n");
     let views = SEQUENCE_TOML.find("[[camera.view]]").unwrap();

@@ -87,6 +87,9 @@ fn a_conversion_is_whole_or_not_there_and_overwrites_nothing() {
         "{error}"
     );
     assert_eq!(fs::read_dir(out.path().join("sequences")).unwrap().count(), 0);
+    // Killed again, while that was removed.
+    write(&out.path().join("sequences/.00.part/.ralf-removed"), "");
+    write(&out.path().join("sequences/.00.part/old"), "");
     write(&path.join("lidar_top/000001.bin"), [0; 16]);
     write_sequence(&reader, out.path(), &|_| ()).unwrap();
     let copy = out.path().join("sequences/00");

@@ -17,6 +17,7 @@ mod opinion;
 mod program_identity;
 mod read_again;
 mod realism;
+mod ros_beside;
 mod ros_real;
 mod same_scene;
 mod segmentation;

@@ -1,7 +1,7 @@
 //! Where exports go, and what they never take the place of; results that are not those of the recording.
 
 use super::{export, labelled, run, small};
-use crate::support::{Shape, ralf, tree};
+use crate::support::{Shape, put, ralf, tree};
 use std::fs;
 
 const FORMATS: [&str; 6] = ["mcap", "rosbag1", "semantickitti", "pcd", "npz", "parquet"];
@@ -41,6 +41,29 @@ fn an_earlier_export_comes_back_where_the_next_one_was_killed_before_it_was_in_i
     fs::rename(&path, dataset.beside(".labels.earlier")).unwrap();
     run(&dataset, "pcd", &path, &[]).exits(1).says(["an earlier export in the format pcd", "other files"]);
     assert!(tree(&path) == before);
+}
+
+/// As a kill leaves it, by the mark that the folder has from then on; and without one, as earlier versions did.
+#[test]
+fn what_is_left_of_an_earlier_export_that_was_being_removed_never_comes_back() {
+    let dataset = small();
+    let path = export(&dataset, "npz", "labels", &[]);
+    let whole = tree(&path);
+    let earlier = dataset.beside(".labels.earlier");
+    for is_marked in [true, false] {
+        for is_there in [true, false] {
+            put(&whole, &earlier);
+            fs::remove_dir_all(format!("{earlier}/sequences")).unwrap();
+            if is_marked {
+                fs::rename(format!("{earlier}/_export.json"), format!("{earlier}/.ralf-removed")).unwrap();
+            }
+            if !is_there {
+                fs::remove_dir_all(&path).unwrap();
+            }
+            run(&dataset, "npz", &path, if is_there { &["--force"] } else { &[] }).exits(0);
+            assert!(tree(&path) == whole && !fs::exists(&earlier).unwrap(), "{is_marked} {is_there}");
+        }
+    }
 }
 
 /// What a person put beside an export's files, or among them, is not the export's.
@@ -181,6 +204,13 @@ fn what_a_killed_export_left_is_gone_after_the_next_one() {
     let path = export(&dataset, "npz", "labels", &[]);
     assert!(!fs::exists(dataset.beside(".labels.part")).unwrap());
     assert!(tree(path).into_keys().all(|name| name != "half"));
+    // Killed again, while that was removed.
+    fs::create_dir(dataset.beside(".labels.part")).unwrap();
+    for file in [".ralf-removed", "half"] {
+        fs::write(dataset.beside(&format!(".labels.part/{file}")), "half").unwrap();
+    }
+    run(&dataset, "npz", &dataset.beside("labels"), &["--force"]).exits(0);
+    assert!(!fs::exists(dataset.beside(".labels.part")).unwrap());
 }
 
 #[test]

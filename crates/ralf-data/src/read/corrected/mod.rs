@@ -8,7 +8,7 @@ mod reader;
 mod trajectory;
 
 use crate::error::DataError;
-use crate::read::corrections::{MotionSettings, MotionSource, SensorCorrection};
+use crate::read::corrections::{Altered, MotionSettings, MotionSource, SensorCorrection};
 use crate::read::recording::{Recording, SequenceReader};
 use nalgebra::Translation3;
 use ralf::config::Config;
@@ -72,13 +72,27 @@ fn with_sensors(
     let mut sequence = inner.sequence().clone();
     let replaced = method.apply_to(&mut sequence.rig, inner.absent());
     replaced.map_err(|error| unsuitable(path, &sequence, error.to_string()))?;
-    for (name, correction) in corrections.iter().filter(|(name, _)| !inner.absent().contains(name)) {
+    let is_there = |name: &String| !inner.absent().contains(name);
+    let mut altered = match method.sensors.keys().any(is_there) {
+        true => Altered::Models,
+        false => Altered::Nothing,
+    };
+    for (name, correction) in corrections.iter().filter(|(name, _)| is_there(name)) {
         correction.apply_to(&mut sequence, name).map_err(|reason| unsuitable(path, &sequence, reason))?;
+        if *correction != SensorCorrection::default() {
+            altered = Altered::Measurements;
+        }
     }
-    Ok(Corrected::new(inner, sequence, corrections))
+    let mut reader = Corrected::new(inner, sequence, corrections);
+    reader.alter(altered);
+    Ok(reader)
 }
 
 fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> Result<Corrected, DataError> {
+    // A motion that the settings don't name, and the sensors see, takes the place of none.
+    if *wanted != MotionSettings::default() {
+        reader.alter(Altered::Measurements);
+    }
     if let Some(file) = &wanted.trajectory {
         let motion = trajectory::read(file, wanted, reader.sequence())?;
         reader.set_motion(scaled(&motion, wanted), MotionSource::Trajectory, Some(file.clone()));

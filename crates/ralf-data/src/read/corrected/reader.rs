@@ -1,6 +1,6 @@
 //! A sequence that reads as corrected.
 
-use crate::read::corrections::{MotionSource, SensorCorrection};
+use crate::read::corrections::{Altered, MotionSource, SensorCorrection};
 use crate::read::recording::SequenceReader;
 use ralf::sensors::{
     CameraImage, ClassImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError,
@@ -16,6 +16,7 @@ pub(super) struct Corrected {
     /// In the rig's order; none where nothing is corrected.
     radars: Vec<Option<SensorCorrection>>,
     lidars: Vec<Option<SensorCorrection>>,
+    altered: Altered,
     source: MotionSource,
     trajectory: Option<PathBuf>,
     warnings: Vec<String>,
@@ -31,7 +32,13 @@ impl Corrected {
         let radars = sequence.rig.radars.iter().map(|radar| corrections.get(&radar.name).copied()).collect();
         let lidars = sequence.rig.lidars.iter().map(|lidar| corrections.get(&lidar.name).copied()).collect();
         let (source, warnings) = (MotionSource::Recorded, inner.warnings().to_vec());
-        Self { inner, sequence, radars, lidars, source, trajectory: None, warnings }
+        let altered = inner.altered();
+        Self { inner, sequence, radars, lidars, altered, source, trajectory: None, warnings }
+    }
+
+    /// The settings name something of this kind.
+    pub(super) fn alter(&mut self, altered: Altered) {
+        self.altered = self.altered.max(altered);
     }
 
     pub(super) fn warn(&mut self, warning: String) {
@@ -132,6 +139,10 @@ impl SequenceReader for Corrected {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    fn altered(&self) -> Altered {
+        self.altered
     }
 
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {

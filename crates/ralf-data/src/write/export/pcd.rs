@@ -11,6 +11,7 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Column, Component, Kind, OutFolder, Table};
 use ralf::space::Transform;
+use std::collections::BTreeSet;
 
 /// Writes the clouds.
 pub(super) struct Pcd;
@@ -36,7 +37,7 @@ fn cloud(table: &Table, vehicle_from_radar: &Transform) -> Vec<u8> {
     let points = table.len();
     let columns = table.schema().columns();
     let of = |text: fn(&Column) -> String| columns.iter().map(text).collect::<Vec<_>>().join(" ");
-    let fields = of(|column| column.name.replace(char::is_whitespace, "_"));
+    let fields = field_names(columns).join(" ");
     let (letters, sizes) =
         (of(|column| letter(column).into()), of(|column| bytes::size(column.kind).to_string()));
     let counts = of(|_| "1".into());
@@ -52,6 +53,21 @@ fn cloud(table: &Table, vehicle_from_radar: &Transform) -> Vec<u8> {
     all
 }
 
+/// A name for each column, without the spaces that part them; one that another column has already gets longer.
+fn field_names(columns: &[Column]) -> Vec<String> {
+    let mut taken: BTreeSet<String> = columns.iter().map(|column| column.name.to_string()).collect();
+    let mut free = |column: &Column| {
+        let mut name = column.name.replace(char::is_whitespace, "_");
+        if *name != *column.name {
+            while !taken.insert(name.clone()) {
+                name.push('_');
+            }
+        }
+        name
+    };
+    columns.iter().map(&mut free).collect()
+}
+
 /// PCD's letter for the kind of a column.
 fn letter(column: &Column) -> &'static str {
     match column.kind {
@@ -65,4 +81,16 @@ fn letter(column: &Column) -> &'static str {
 fn viewpoint(vehicle_from_radar: &Transform) -> String {
     let (place, turn) = (vehicle_from_radar.translation.vector, vehicle_from_radar.rotation);
     [place.x, place.y, place.z, turn.w, turn.i, turn.j, turn.k].map(|value| value.to_string()).join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::result::schema::field;
+
+    #[test]
+    fn fields_have_names_of_their_own_without_spaces() {
+        let columns = ["my field", "x", "my\tfield", "my_field", "my_field_"].map(field);
+        assert_eq!(field_names(&columns), ["my_field__", "x", "my_field___", "my_field", "my_field_"]);
+    }
 }

@@ -40,11 +40,7 @@ impl Place {
         let lock = WriterLock::beside(path)?;
         let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
         let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
-        // An export that was killed while it took the place of an earlier one has left that beside it.
-        refuse_others(&earlier, RECORD)?;
-        if files::exists(&earlier)? && !files::exists(path)? {
-            fs::rename(&earlier, path).map_err(DataError::io(path))?;
-        }
+        bring_back(&earlier, path)?;
         let file = match options.format.single_file() {
             Some(single) if single.is_named_by(path) && !path.is_dir() => {
                 check_file(path, single, options, &sequences)?;
@@ -101,6 +97,19 @@ impl Drop for Place {
     /// A half-written export is of no use to anyone. Of a finished one nothing is left beside its place.
     fn drop(&mut self) {
         let _ = remove_own(self.part.path(), RECORD);
+    }
+}
+
+/// An export that was killed while it took the place of an earlier one has left that beside it. It comes back, unless
+/// its removal had begun: what is left then would be taken for all.
+fn bring_back(earlier: &Path, path: &Path) -> Result<(), DataError> {
+    refuse_others(earlier, RECORD)?;
+    if files::exists(path)? || !files::exists(earlier)? {
+        return Ok(());
+    }
+    match Record::of(earlier) {
+        Some(record) if record.is_whole(earlier)? => fs::rename(earlier, path).map_err(DataError::io(path)),
+        _ => remove_own(earlier, RECORD),
     }
 }
 

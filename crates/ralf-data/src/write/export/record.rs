@@ -47,6 +47,13 @@ impl Record {
         write_json(&folder.own_file(RECORD), &whole)
     }
 
+    /// Whether a folder has all that the export wrote, as far as it tells what that was.
+    pub(super) fn is_whole(&self, folder: &Path) -> Result<bool, DataError> {
+        let mut found = BTreeSet::new();
+        entries(folder, "", &mut found)?;
+        Ok(self.files.as_ref().is_none_or(|own| own.is_subset(&found)))
+    }
+
     /// Refuses a folder with a file that the export did not write: somebody has put it there and wants to keep it.
     pub(super) fn refuse_others(&self, folder: &Path) -> Result<(), DataError> {
         let Some(own) = &self.files else {

@@ -11,13 +11,15 @@
 //! | `/tf_static` | TFMessage | always |
 //!
 //! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all
-//! sensors' data are asked for, and the labelled clouds are in the frames of the original ones.
+//! sensors' data are asked for and settings correct nothing of what they say, and the labelled clouds are in the frames
+//! of the original ones.
 //!
 //! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is
 //! recorded at the time of its measurement, so that they lie in order; where one is before 1970, which ROS doesn't
 //! know, all are put off by some whole seconds.
 
 mod cloud;
+mod conversion;
 pub(super) mod foxglove;
 mod images;
 mod left_out;
@@ -27,24 +29,22 @@ mod originals;
 mod recorder;
 mod settings;
 
+pub use conversion::{RosWritten, write_ros};
+
 use super::Writer;
 use super::labelled::LabelledSequence;
 use super::options::{Sensors, Split};
-use crate::disk::files;
-use crate::disk::files::{beside, remove};
+use crate::disk::alone::open_alone;
 use crate::error::DataError;
-use crate::read::SequenceReader;
-use crate::read::recording::{check_motion_corrected, check_nothing_lost};
-use crate::result::{OutFolder, WriterLock};
+use crate::result::OutFolder;
 use foxglove::Layout;
-use ralf_files::Kind;
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
 use std::error::Error;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The kind of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +82,7 @@ impl RosFormat {
     }
 
     fn create(self, file: &Path) -> Result<FileWriter, DataError> {
-        let open = BufWriter::new(File::create(file).map_err(DataError::io(file))?);
+        let open = BufWriter::new(open_alone(file).map_err(DataError::io(file))?);
         let writer = match self {
             Self::Mcap => MessageWriter::mcap(open, Compression::Zstd),
             Self::Bag => MessageWriter::bag(open),
@@ -134,84 +134,6 @@ fn split_of_copies(sequence: &LabelledSequence) -> DataError {
                   them: --sensors=lidar,camera leaves out the radars' own messages, and labelled clouds have all that \
                   the radars measured";
     DataError::Unsuitable { file: sequence.name().into(), place: "split".into(), reason: reason.into() }
-}
-
-/// What [`write_ros`] has written, and what not.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RosWritten {
-    /// The file of the settings; `None` of a recording that was copied, for those of the original hold.
-    pub settings: Option<PathBuf>,
-    /// What the sequence has and such a file has no place for, a name each, for people.
-    pub left_out: Vec<&'static str>,
-    /// How much later than it was measured everything is written, ns: more than 0 where there are times before 1970,
-    /// which ROS doesn't know.
-    pub delay_ns: i64,
-}
-
-/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings
-/// by which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at
-/// all. `progress` is told how many measurements are done. `docs/export.md` tells what is left out.
-///
-/// # Errors
-/// A file that is there already, a measurement that can't be read, times that ROS doesn't know, what the system
-/// refuses.
-pub fn write_ros(
-    reader: &dyn SequenceReader,
-    file: &Path,
-    format: RosFormat,
-    progress: &dyn Fn(usize),
-) -> Result<RosWritten, DataError> {
-    check_nothing_lost(reader)?;
-    check_motion_corrected(reader)?;
-    let _lock = WriterLock::beside(file)?;
-    let settings = settings::settings(&file.with_extension("toml"), reader)?;
-    let settings_file = settings_file(file, &settings);
-    let of_another = settings_file.exists() && !is_left(&settings_file, &settings);
-    if let Some(there) = [(file, file.exists()), (&settings_file, of_another)].into_iter().find(|(_, is)| *is)
-    {
-        let (there, _) = there;
-        return Err(DataError::content(there, "file", "none of this name yet", "one"));
-    }
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
-    }
-    let part = beside(file);
-    let written = format.create(&part).and_then(|writer| {
-        let recorder = Recorder::new(writer, file, reader, Sensors::ALL, false)?;
-        let copies = recorder.copies();
-        let delay_ns = recorder.record(None, progress)?;
-        let left_out = if copies { Vec::new() } else { left_out::left_out(reader) };
-        if !copies {
-            files::write_whole(&settings_file, settings.as_bytes())?;
-        }
-        fs::rename(&part, file).map_err(DataError::io(file))?;
-        Ok(RosWritten { settings: (!copies).then_some(settings_file), left_out, delay_ns })
-    });
-    if written.is_err() {
-        // The half-written file is of no use to anyone; the error that matters is the first one.
-        let _ = remove(&part);
-    }
-    written
-}
-
-/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is
-/// another's.
-fn settings_file(file: &Path, settings: &str) -> PathBuf {
-    let usual = file.with_extension("toml");
-    if !usual.exists() || is_left(&usual, settings) {
-        return usual;
-    }
-    let mut name = file.as_os_str().to_owned();
-    name.push(".toml");
-    name.into()
-}
-
-/// Whether these settings lie here for a file that isn't there: a conversion that was killed at its very end leaves
-/// them.
-fn is_left(settings_file: &Path, settings: &str) -> bool {
-    let formats = [RosFormat::Mcap, RosFormat::Bag];
-    let is_used = formats.iter().any(|format| settings_file.with_extension(format.extension()).exists());
-    !is_used && files::read_text(settings_file, Kind::Settings).is_ok_and(|found| found == settings)
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.

@@ -2,8 +2,8 @@
 
 use super::{FileWriter, written};
 use crate::error::DataError;
-use crate::read::SequenceReader;
 use crate::read::ros::{LABELLED, RosOrigin};
+use crate::read::{Altered, SequenceReader};
 use ralf_ros::container::{Container, MessageRef, Topic};
 use ralf_ros::writer::{RawTopic, WriteError};
 use std::any::Any;
@@ -19,11 +19,16 @@ pub(super) struct Originals<'a> {
 }
 
 impl<'a> Originals<'a> {
-    /// Adds the recording's topics; `None` where there is none, or one that is encoded otherwise.
+    /// Adds the recording's topics; `None` where there is none, or one that is encoded otherwise, or where settings
+    /// alter more than `at_most`: the messages would say it as it was before.
     pub(super) fn of(
         reader: &'a dyn SequenceReader,
+        at_most: Altered,
         writer: &mut FileWriter,
     ) -> Result<Option<Self>, WriteError> {
+        if reader.altered() > at_most {
+            return Ok(None);
+        }
         let Some(origin) = reader.origin().and_then(<dyn Any>::downcast_ref::<RosOrigin>) else {
             return Ok(None);
         };

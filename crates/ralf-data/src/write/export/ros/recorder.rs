@@ -5,7 +5,7 @@ use super::names::{self, Names};
 use super::originals::Originals;
 use super::{FileWriter, cloud, images, written};
 use crate::error::DataError;
-use crate::read::SequenceReader;
+use crate::read::{Altered, SequenceReader};
 use crate::write::export::columns::cloud_columns;
 use crate::write::export::labelled::LabelledSequence;
 use crate::write::export::options::Sensors;
@@ -25,7 +25,7 @@ pub(super) struct Recorder<'a> {
     reader: &'a dyn SequenceReader,
     names: Names,
     topics: Topics,
-    /// Where the sequence is read from such a file and all its data are asked for: its messages as they are.
+    /// Where the sequence is read from such a file, uncorrected, and all its data are asked for: its own messages.
     originals: Option<Originals<'a>>,
     /// How much later than it was measured everything is written, ns.
     delay_ns: i64,
@@ -72,8 +72,10 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, DataError> {
         let unlike = |found| DataError::content(file, "sensors", "names that differ in ROS, too", found);
         let names = Names::of(&reader.sequence().rig).map_err(unlike)?;
+        // Models of sensors go into the settings beside a recording, and an export has none.
+        let at_most = if labelled { Altered::Models } else { Altered::Nothing };
         let originals = match sensors == Sensors::ALL {
-            true => Originals::of(reader, &mut writer).map_err(written(file))?,
+            true => Originals::of(reader, at_most, &mut writer).map_err(written(file))?,
             false => None,
         };
         let sensors = if originals.is_some() { None } else { Some(sensors) };

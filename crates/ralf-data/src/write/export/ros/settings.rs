@@ -8,6 +8,7 @@ use crate::read::models::GENERIC;
 use crate::read::ros::{TopicConfig, TopicKind, Topics};
 use ralf::config::SensorOverride;
 use ralf::sensors::{Elevation, Lidar, Radar};
+use ralf::space::EgoMotion;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,7 +25,7 @@ pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<Strin
     let sequence = reader.sequence();
     let unlike = |found| DataError::content(file, "sensors", "names that differ in ROS, too", found);
     let names = Names::of(&sequence.rig).map_err(unlike)?;
-    let mut settings = Settings { topics: motion(reader), sensors: BTreeMap::new() };
+    let mut settings = Settings { topics: Topics::new(), sensors: BTreeMap::new() };
     for ((radar, name), times) in sequence.rig.radars.iter().zip(&names.radars).zip(&sequence.times.radars) {
         let elevation = Some(radar.elevation == Elevation::Measured);
         let frame = frame(name, times);
@@ -43,6 +44,7 @@ pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<Strin
             TopicConfig { info, ..TopicConfig::new(&names::image(name), TopicKind::Camera) },
         );
     }
+    settings.add_motion(&sequence.motion);
     let text = toml::to_string(&settings);
     text.map_err(|error| DataError::content(file, "settings", "values that TOML can hold", error.to_string()))
 }
@@ -50,6 +52,28 @@ pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<Strin
 impl Settings {
     fn add(&mut self, name: &str, topic: TopicConfig) {
         self.topics.insert(name.to_owned(), topic);
+    }
+
+    /// Where sensors are, and how the vehicle moved. These names are free, so that one that a sensor has gets longer.
+    fn add_motion(&mut self, motion: &EgoMotion) {
+        let (has_poses, has_odometry) = (!motion.poses().is_empty(), !motion.odometry().is_empty());
+        let mut add = |name: &str, topic| {
+            let mut name = name.to_owned();
+            while self.topics.contains_key(&name) {
+                name.push('_');
+            }
+            self.topics.insert(name, topic);
+        };
+        // No message of a motion that isn't there tells the vehicle's frame.
+        let vehicle_frame = (!has_poses && !has_odometry).then(|| names::VEHICLE.to_owned());
+        let mounted = TopicConfig::new(names::TF_STATIC, TopicKind::TfStatic);
+        add("tf_static", TopicConfig { vehicle_frame, ..mounted });
+        if has_poses {
+            add("odom", TopicConfig::new(names::ODOMETRY, TopicKind::Odometry));
+        }
+        if has_odometry {
+            add("twist", TopicConfig::new(names::TWIST, TopicKind::Twist));
+        }
     }
 }
 
@@ -61,20 +85,6 @@ fn frame(name: &str, times: &[i64]) -> Option<String> {
 fn cloud(name: &str, kind: TopicKind) -> TopicConfig {
     let topic = TopicConfig::new(&names::cloud(name, names::POINTS), kind);
     TopicConfig { model: Some(GENERIC.to_owned()), ..topic }
-}
-
-fn motion(reader: &dyn SequenceReader) -> Topics {
-    let motion = &reader.sequence().motion;
-    let mut topics = Topics::new();
-    let mut add = |name: &str, topic, kind| topics.insert(name.to_owned(), TopicConfig::new(topic, kind));
-    add("tf_static", names::TF_STATIC, TopicKind::TfStatic);
-    if !motion.poses().is_empty() {
-        add("odom", names::ODOMETRY, TopicKind::Odometry);
-    }
-    if !motion.odometry().is_empty() {
-        add("twist", names::TWIST, TopicKind::Twist);
-    }
-    topics
 }
 
 fn of_radar(radar: &Radar) -> SensorOverride {
