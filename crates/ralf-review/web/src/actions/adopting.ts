@@ -38,9 +38,12 @@ export class Adopting {
   /** Reads scans on screen anew. */
   async reread(sequence: string, stale: readonly Scan[]): Promise<void> {
     const { store, loader } = this.world;
+    // Radars have the same names in another sequence, and scans the same numbers.
+    const isHere = (): boolean => sequence === store.state.sequence;
+    if (!isHere() || stale.length === 0) return;
     for (const scan of stale) loader.forget(sequence, scan);
-    const fresh = await Promise.all(stale.map((scan) => loader.scan(sequence, scan)));
-    if (fresh.length > 0) store.set({ cloud: withScans(store.state.cloud, fresh) });
+    const fresh = await loader.newest(sequence, stale);
+    if (isHere()) store.set({ cloud: withScans(store.state.cloud, fresh) });
   }
 
   /** The labels are others than those on screen: everything that was read of them is read anew. */
@@ -52,13 +55,14 @@ export class Adopting {
   }
 
   /** Says why something was not done, and shows what is there in its place. */
-  async refused(done: string, error: unknown): Promise<void> {
+  async refused(sequence: string, done: string, error: unknown): Promise<void> {
     if (!(error instanceof Conflict)) return complain(this.world, error);
     const { conflict, scans, stale } = error.body;
     const failed = (problem: unknown): void => complain(this.world, problem);
     if (stale) await this.readAllAnew().catch(failed);
-    else await this.adopt(this.world.store.state.sequence, scans).catch(failed);
+    else await this.adopt(sequence, scans).catch(failed);
+    const where = sequence === this.world.store.state.sequence ? "" : ` in sequence ${sequence}`;
     const by = conflict === null ? "" : ` (${conflict.author}, ${conflict.tool})`;
-    complain(this.world, `Not ${done}${by}: ${error.message}`);
+    complain(this.world, `Not ${done}${where}${by}: ${error.message}`);
   }
 }

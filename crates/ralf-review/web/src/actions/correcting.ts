@@ -9,7 +9,7 @@ import type { ReplayPart } from "../data/replay.js";
 import type { Verdict } from "../data/rules.js";
 import { sameScan } from "../data/scan.js";
 import type { Keeper } from "../history/keep.js";
-import { type Errand, Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
+import { type Errand, type Met, Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
 import { countOf } from "../selection/mask.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
@@ -142,6 +142,15 @@ export class Correcting {
     return this.outbox.applyAnyway(protect);
   }
 
+  /** Goes to what the stroke in conflict would change, wherever it is. */
+  async showMet(): Promise<void> {
+    const { sequence, outbox } = this.world.store.state;
+    if (outbox.kind !== "conflict") return;
+    const { pending } = outbox;
+    if (pending.sequence !== sequence) await this.navigation.open(pending.sequence, pending.stroke.base[0]);
+    await this.selectMet(outbox);
+  }
+
   /** Makes an edit of another kind in its turn; that it can't, for strokes before it can't be saved, is told. */
   inTurn(what: string, errand: Omit<Errand, "refuse">): Promise<void> {
     return new Promise((resolve) => {
@@ -198,18 +207,24 @@ export class Correcting {
   private heed(status: OutboxStatus, waiting: readonly Pending[]): void {
     const { store } = this.world;
     store.set({ outbox: status, waiting, link: status.kind === "gone" ? status.link : store.state.link });
-    if (status.kind === "conflict")
-      this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
+    if (status.kind === "conflict") this.meetConflict(status).catch((error: unknown) => complain(this.world, error));
   }
 
-  private async meetConflict(pending: Pending, { body }: Extract<OutboxStatus, { kind: "conflict" }>): Promise<void> {
+  private async meetConflict(met: Met): Promise<void> {
+    if (met.body.stale) return this.adopting.readAllAnew();
+    await this.adopting.adopt(met.pending.sequence, met.body.scans);
+    await this.selectMet(met);
+  }
+
+  /** Selects what the stroke in conflict would change; whoever is in another sequence is left there. */
+  private async selectMet(met: Met): Promise<void> {
     const { store } = this.world;
-    if (body.stale) return this.adopting.readAllAnew();
-    await this.adopting.adopt(pending.sequence, body.scans);
-    if (pending.sequence !== store.state.sequence) return;
-    const { base, points } = pending.stroke;
+    const { sequence, stroke } = met.pending;
+    const isAsked = (): boolean => store.state.outbox === met && store.state.sequence === sequence;
+    if (!isAsked()) return;
+    const { base, points } = stroke;
     if (!base.some((scan) => findScan(store.state.cloud, scan) >= 0)) await this.navigation.goTo(base[0]);
-    store.set({ selection: maskOf(store.state.cloud, points) });
+    if (isAsked()) store.set({ selection: maskOf(store.state.cloud, points) });
   }
 }
 

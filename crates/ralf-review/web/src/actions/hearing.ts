@@ -92,9 +92,9 @@ export class Hearing {
 
   private async take(sequence: string, { scans }: Changes): Promise<void> {
     const { store } = this.world;
-    if (scans.length === 0) return;
-    const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
+    if (scans.length === 0 || sequence !== store.state.sequence) return;
+    const { cloud, current } = store.state;
     await this.adopting.reread(
       sequence,
       cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),

@@ -28,10 +28,12 @@ export class Moment {
     const { sequence, accumulate } = store.state;
     store.set({ current: id, loading: true, hover: -1 });
     try {
-      const [cloud, lidar] = await Promise.all([
-        loader.cloud(sequence, id, accumulate),
+      const [around, lidar] = await Promise.all([
+        loader.around(sequence, id, accumulate),
         loader.scan(sequence, id).then((scan) => this.lidarOrNone(scan)),
       ]);
+      // Last: a stroke on these scans may have been saved while the rest was read.
+      const cloud = await loader.cloud(sequence, around);
       if (generation !== this.generation) return;
       const before = store.state.cameras;
       const cameras = this.camerasOf(cloud).map((camera) => withKnownPicture(camera, before));
@@ -50,7 +52,7 @@ export class Moment {
     const { loader, store } = this.world;
     const { sequence, accumulate } = store.state;
     const scan = await loader.scan(sequence, id);
-    await Promise.all([loader.cloud(sequence, id, accumulate), this.lidarOf(scan)]);
+    await Promise.all([loader.around(sequence, id, accumulate), this.lidarOf(scan)]);
   }
 
   /** What is drawn of the LiDAR: nothing is read of what isn't shown. */

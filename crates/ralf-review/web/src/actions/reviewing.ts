@@ -89,7 +89,7 @@ export class Reviewing {
       await this.adopt(sequence, scan, answer);
       return true;
     } catch (error) {
-      await this.adopting.refused("marked", error);
+      await this.adopting.refused(sequence, "marked", error);
       return false;
     } finally {
       store.set({ busy: false });

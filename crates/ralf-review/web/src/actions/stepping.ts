@@ -49,7 +49,7 @@ export class Stepping {
       const taken = answer.history[what === "undo" ? "redo" : "undo"];
       return isOfMarks(taken) ? null : { sequence, base: ownGround(cloud, answer.scans), scans: answer.scans };
     } catch (error) {
-      await this.adopting.refused(what === "undo" ? "undone" : "redone", error);
+      await this.adopting.refused(sequence, what === "undo" ? "undone" : "redone", error);
       return null;
     } finally {
       store.set({ busy: false });

@@ -3,7 +3,7 @@
 import type { CameraMoment } from "../data/camera-moment.js";
 import { maskOf } from "../data/cloud.js";
 import { h, say } from "../dom.js";
-import { pointsOf } from "../history/outbox.js";
+import { pointsIn } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import { lookedAt } from "../state.js";
 import type { Point } from "../selection/geometry.js";
@@ -165,15 +165,16 @@ export class CameraView {
 
   private drawDots(context: CanvasRenderingContext2D, width: number): void {
     const { state } = this.page.store;
-    const { cloud, painting, shown, selection, dotSize, waiting: strokes } = state;
+    const { cloud, painting, shown, selection, dotSize, sequence } = state;
     // Beside the thing that is looked at everything else is faint.
     const eligible = lookedAt(state) === null ? state.eligible : selection;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
+      const waiting = maskOf(cloud, pointsIn(sequence, state.waiting));
       drawDetections(
         context,
         this.placed(),
-        { cloud, colours: painting.colours, shown, eligible, selection, waiting: maskOf(cloud, pointsOf(strokes)) },
+        { cloud, colours: painting.colours, shown, eligible, selection, waiting },
         radius,
         width < SMALL ? LAYERS.slice(1) : LAYERS,
       );

@@ -21,6 +21,8 @@ export class Loader {
   private readonly places = new Cache<Table<object>>(600);
   private readonly things = new Cache<Table<ThingInImageHeader>>(100);
   private readonly overlays = new Cache<LidarInImage>(16);
+  /** Counts what was said of scans since the page was opened. */
+  private said = 0;
 
   constructor(private readonly api: Api) {}
 
@@ -30,28 +32,43 @@ export class Loader {
 
   /** Keeps a scan whose labels are others now. */
   keep(sequence: string, scan: Scan): void {
+    this.said += 1;
     this.scans.put(key(sequence, scanKey(scan)), Promise.resolve(scan));
   }
 
   forget(sequence: string, id: ScanId): void {
+    this.said += 1;
     this.scans.forget(key(sequence, scanKey(id)));
   }
 
   /** Other labels make other things. */
   forgetScans(): void {
+    this.said += 1;
     this.scans.clear();
     this.things.clear();
   }
 
-  /** The detections around the scan, of every radar, with so many neighbouring scans. */
-  async cloud(sequence: string, id: ScanId, accumulate: number): Promise<Cloud> {
+  /** The scan and those around it, of every radar, with so many neighbours; they are read by then. */
+  async around(sequence: string, id: ScanId, accumulate: number): Promise<readonly ScanId[]> {
     const first = await this.scan(sequence, id);
     const around = await this.api.moment(sequence, first.table.header.t_ns, accumulate);
-    const others = around.filter((other) => !sameScan(other, id));
-    const read = await Promise.all(
-      others.map((other) => this.scan(sequence, { radar: other.radar, scan: other.scan })),
-    );
-    return buildCloud([first, ...read]);
+    const others = around.filter((other) => !sameScan(other, id)).map(({ radar, scan }) => ({ radar, scan }));
+    await Promise.all(others.map((other) => this.scan(sequence, other)));
+    return [id, ...others];
+  }
+
+  /** The detections of scans. */
+  async cloud(sequence: string, ids: readonly ScanId[]): Promise<Cloud> {
+    return buildCloud(await this.newest(sequence, ids));
+  }
+
+  /** Scans as they are once all are there: what is said of one while others are read isn't lost. */
+  async newest(sequence: string, ids: readonly ScanId[]): Promise<readonly Scan[]> {
+    for (;;) {
+      const { said } = this;
+      const scans = await Promise.all(ids.map((id) => this.scan(sequence, id)));
+      if (said === this.said) return scans;
+    }
   }
 
   /** The LiDAR scan of a radar's; `around`: what those around it have seen stand still, where the motion is known. */

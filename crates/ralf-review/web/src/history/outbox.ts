@@ -15,6 +15,7 @@ import type {
   StrokeRequest,
 } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
+import { Overlaid } from "./overlaid.js";
 
 export interface Pending {
   readonly sequence: string;
@@ -27,7 +28,14 @@ export type OutboxStatus =
   /** Nobody is there who could save it. */
   | { readonly kind: "gone"; readonly link: Link }
   | { readonly kind: "refused"; readonly message: string }
-  | { readonly kind: "conflict"; readonly body: ConflictBody; readonly pending: Pending };
+  | Met;
+
+/** Somebody else's edit came first. */
+export interface Met {
+  readonly kind: "conflict";
+  readonly body: ConflictBody;
+  readonly pending: Pending;
+}
 
 export interface OutboxWorld {
   readonly send: (pending: Pending) => Promise<StrokeAnswer>;
@@ -61,6 +69,7 @@ type Item = Pending | Errand;
 export class Outbox {
   private items: readonly Item[];
   private current: OutboxStatus = { kind: "idle" };
+  private readonly overlaid = new Overlaid();
 
   /** `kept`: what an earlier life of the page left unsaved; it waits for `retry`. */
   constructor(
@@ -105,14 +114,15 @@ export class Outbox {
     return this.run();
   }
 
-  /** After a conflict: sets the stroke on top of the newer state. */
+  /**
+   * After a conflict: sets the stroke on top of the newer state, with its group. The others keep what they were made
+   * on, for nobody was asked about them: each is a conflict of its own.
+   */
   applyAnyway(protect: boolean): Promise<void> {
     // What was chosen on other detections means nothing on these.
     if (this.current.kind !== "conflict" || this.current.body.stale) return Promise.resolve();
-    const newest = rebased(this.waiting, this.current.body.scans);
-    this.items = newest.map((pending) =>
-      together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending,
-    );
+    const { body, pending } = this.current;
+    this.items = this.waiting.map((other) => (together(pending, other) ? onTop(other, body.scans, protect) : other));
     this.keep();
     return this.run();
   }
@@ -149,7 +159,7 @@ export class Outbox {
       this.world.saved(pending, answer);
       return null;
     } catch (error) {
-      return statusAfter(error, pending);
+      return this.statusAfter(error, pending);
     }
   }
 
@@ -162,6 +172,14 @@ export class Outbox {
   private finish(moved: Moved | null): void {
     const behind = this.items.slice(1);
     this.items = moved === null ? behind : behind.map((item) => afterOwn(item, moved));
+    if (moved !== null) this.overlaid.cover(moved.sequence, moved.base, moved.scans);
+  }
+
+  private statusAfter(error: unknown, pending: Pending): OutboxStatus {
+    if (error instanceof Conflict)
+      return { kind: "conflict", body: this.overlaid.named(pending.sequence, error.body), pending };
+    if (error instanceof ServerGone || error instanceof Elsewhere) return { kind: "gone", link: linkAfter(error) };
+    return { kind: "refused", message: messageOf(error) };
   }
 
   private stop(trouble: OutboxStatus): void {
@@ -196,15 +214,14 @@ export function pointsOf(strokes: readonly Pending[]): readonly ScanPoints[] {
   return strokes.flatMap(({ stroke }) => stroke.points);
 }
 
+/** Those in one sequence: radars have the same names in another, and scans the same numbers. */
+export function pointsIn(sequence: string, strokes: readonly Pending[]): readonly ScanPoints[] {
+  return pointsOf(strokes.filter((pending) => pending.sequence === sequence));
+}
+
 /** Whether both are one step to the person who made them. */
 function together(first: Pending, other: Pending): boolean {
   return first === other || (first.stroke.group !== undefined && first.stroke.group === other.stroke.group);
-}
-
-function statusAfter(error: unknown, pending: Pending): OutboxStatus {
-  if (error instanceof Conflict) return { kind: "conflict", body: error.body, pending };
-  if (error instanceof ServerGone || error instanceof Elsewhere) return { kind: "gone", link: linkAfter(error) };
-  return { kind: "refused", message: messageOf(error) };
 }
 
 /**
@@ -220,12 +237,9 @@ export function afterOwn<Some extends Item>(item: Some, own: Moved): Some {
   return isStroke(item) ? { ...item, stroke: { ...item.stroke, base } } : { ...item, base };
 }
 
-/** The same strokes on the newest revisions. */
-function rebased(waiting: readonly Pending[], newest: readonly ScanCorrections[]): readonly Pending[] {
-  return waiting.map((pending) => ({
-    ...pending,
-    stroke: { ...pending.stroke, base: pending.stroke.base.map((base) => atRevision(base, newest)) },
-  }));
+/** The same stroke on the newest revisions. */
+function onTop({ sequence, stroke }: Pending, newest: readonly ScanCorrections[], protect: boolean): Pending {
+  return { sequence, stroke: { ...stroke, protect, base: stroke.base.map((base) => atRevision(base, newest)) } };
 }
 
 function atRevision(base: BaseRevision, newest: readonly ScanCorrections[]): BaseRevision {

@@ -3,7 +3,7 @@
 import { cornersHere, liesIn } from "../data/area.js";
 import { maskOf } from "../data/cloud.js";
 import { h } from "../dom.js";
-import { pointsOf } from "../history/outbox.js";
+import { pointsIn } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import { homeOf } from "../state.js";
 import type { Point } from "../selection/geometry.js";
@@ -101,7 +101,7 @@ export class Viewport {
       (state) => [state.cloud, state.shown, nearOf(state), state.selection, state.waiting],
       (cloud, shown, near, selection, strokes) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
-        const waiting = maskOf(cloud, pointsOf(strokes));
+        const waiting = maskOf(cloud, pointsIn(store.state.sequence, strokes));
         view.radar.setMarks(marksOf(cloud, { shown, near, selection, waiting }, certaintyOf(store.state.recording)));
         this.changed();
       },

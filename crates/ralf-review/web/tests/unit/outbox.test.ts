@@ -2,7 +2,15 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Conflict, Refused, ServerGone } from "../../src/api/errors.js";
 import type { StrokeAnswer } from "../../src/api/types.js";
-import { afterOwn, type Errand, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
+import {
+  afterOwn,
+  type Errand,
+  type Met,
+  Outbox,
+  type OutboxStatus,
+  type Pending,
+  pointsIn,
+} from "../../src/history/outbox.js";
 
 const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
@@ -24,6 +32,8 @@ function stroke(points: readonly number[], revision: number, label: number | nul
 /** A server that counts revisions and refuses a stroke on any but the newest. */
 class FakeServer {
   revision = 0;
+  /** Who changed the scan last. */
+  author = "grace";
   trouble: Error | null = null;
   stale = false;
   readonly asked: string[] = [];
@@ -65,11 +75,12 @@ class FakeServer {
       throw new Conflict({
         error: "changed",
         stale: this.stale,
-        conflict: { author: "grace", at: "", tool: "box", radar: "front", scan: 3 },
+        conflict: { author: this.author, at: "", tool: "box", radar: "front", scan: 3 },
         scans,
       });
     }
     this.revision += 1;
+    this.author = "ada";
     this.written.push([...points[0].points]);
     return {
       changed: points[0].points.length,
@@ -125,6 +136,67 @@ test("another's change before the retry is a conflict and never overwritten sile
   assert.equal(server.last.kind, "idle");
 });
 
+/** Strokes that wait for the server while another person changes their scan. */
+async function overtaken(strokes: readonly Pending[]): Promise<FakeServer> {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await server.outbox.add(strokes);
+  server.trouble = null;
+  server.revision = 5;
+  await server.outbox.retry();
+  return server;
+}
+
+function inGroup(pending: Pending, group: string): Pending {
+  return { ...pending, stroke: { ...pending.stroke, group } };
+}
+
+test("who applies one stroke anyway is asked about each later one, and told whose edit lies below", async () => {
+  const server = await overtaken([stroke([1], 0), stroke([2], 0), stroke([3], 0)]);
+  for (const point of [1, 2, 3]) {
+    assert.equal(server.last.kind, "conflict");
+    const { body, pending } = server.last as Met;
+    assert.deepEqual([body.conflict?.author, pending.stroke.points[0].points], ["grace", [point]]);
+    if (point < 3) await server.outbox.applyAnyway(false);
+  }
+  assert.deepEqual(server.written, [[1], [2]]);
+  await server.outbox.drop();
+  assert.deepEqual([server.written, server.last.kind], [[[1], [2]], "idle"]);
+});
+
+test("a stroke that is made while another is applied anyway rests on it", async () => {
+  const server = await overtaken([stroke([1], 0)]);
+  await Promise.all([server.outbox.applyAnyway(false), server.outbox.add([stroke([2], 5)])]);
+  assert.deepEqual([server.written, server.last.kind], [[[1], [2]], "idle"]);
+});
+
+test("halves of one step are applied together, and each spares what is corrected if so asked", async () => {
+  const server = await overtaken([inGroup(stroke([1], 0), "flip"), inGroup(stroke([2], 0), "flip"), stroke([3], 0)]);
+  const applied = server.outbox.applyAnyway(false);
+  assert.deepEqual(
+    server.kept.at(-1)?.map(({ stroke: { protect } }) => protect),
+    [false, false, true],
+  );
+  await applied;
+  const { body, pending } = server.last as Met;
+  assert.deepEqual([server.written, pending.stroke.points[0].points], [[[1], [2]], [3]]);
+  assert.equal(body.conflict?.author, "grace");
+});
+
+test("a stroke in another sequence keeps what it was made on, whatever is applied anyway", async () => {
+  const elsewhere = { ...stroke([2], 0), sequence: "01" };
+  const server = await overtaken([stroke([1], 0), elsewhere]);
+  await server.outbox.applyAnyway(false);
+  const { body, pending } = server.last as Met;
+  assert.deepEqual([server.written, pending], [[[1]], elsewhere]);
+  assert.equal(body.conflict?.author, "ada", "and is not told of an edit in this one");
+});
+
+test("strokes in another sequence aren't drawn into this one", () => {
+  const [here, elsewhere] = [stroke([1], 0), { ...stroke([2], 0), sequence: "01" }];
+  assert.deepEqual(pointsIn("01", [here, elsewhere]), elsewhere.stroke.points);
+});
+
 test("a conflict may be dropped; the strokes behind it go on", async () => {
   const server = new FakeServer();
   server.revision = 2;
@@ -137,10 +209,7 @@ test("a conflict may be dropped; the strokes behind it go on", async () => {
 test("halves of one step are dropped together", async () => {
   const server = new FakeServer();
   server.revision = 2;
-  const half = (point: number): Pending => {
-    const whole = stroke([point], 1);
-    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
-  };
+  const half = (point: number): Pending => inGroup(stroke([point], 1), "flip");
   await server.outbox.add([half(1), half(2), stroke([3], 2)]);
   await server.outbox.drop();
   assert.deepEqual(server.written, [[3]]);
@@ -150,10 +219,7 @@ test("where the server is gone the last stroke is dropped, with its group, and n
   const server = new FakeServer();
   server.trouble = new ServerGone();
   await server.outbox.add([stroke([1], 0)]);
-  const half = (point: number): Pending => {
-    const whole = stroke([point], 0);
-    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
-  };
+  const half = (point: number): Pending => inGroup(stroke([point], 0), "flip");
   await server.outbox.add([half(2), half(3)]);
   await server.outbox.drop();
   assert.deepEqual(
