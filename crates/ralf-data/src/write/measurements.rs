@@ -100,9 +100,9 @@ impl<'a> Contents<'a> {
         files.map_err(|error| DataError::Measurement { sensor: sensor.as_str().to_owned(), index, error })
     }
 
-    /// What may lie beside a measurement that has it, and changes its labels: times of points, depth and a segmentation,
-    /// other than what a network made of the image later and left a note of. Truth and classes of points say nothing
-    /// of other measurements, and people add such.
+    /// What may lie beside a measurement that has it, and changes its labels: times of points, depth and a
+    /// segmentation, other than what a network made of the image later and left a note of. Truth and classes of points
+    /// say nothing of other measurements, and people add such.
     pub(super) fn beside(&self, measurement: Measurement) -> Vec<PathBuf> {
         let SequenceNames { lidars, cameras, .. } = self.names;
         match measurement {

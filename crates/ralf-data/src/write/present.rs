@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion, the times of all
 /// measurements, and some of these tell: the first, the middle and the last scan of each radar and LiDAR with their
-/// truth, and the first image of each camera. Motion, times of points, depth and segmentations are there or not there as
-/// they would be written. A sequence is put in its place whole, so one that is there is finished.
+/// truth, and the first image of each camera. Motion, times of points, depth and segmentations are there or not there
+/// as they would be written. A sequence is put in its place whole, so one that is there is finished.
 ///
 /// # Errors
 /// Another sequence of this name, or anything else, lies there; `DATASET` holds labels or is a recording of another
