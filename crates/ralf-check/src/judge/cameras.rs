@@ -21,7 +21,7 @@ const SIGMAS: f64 = 4.5;
 
 /// Judges each camera of which images were read.
 pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
-    let cameras = 0..case.sequence.rig.cameras.len();
+    let cameras = case.cameras();
     if is_lidar_doubted(case, known) {
         let missing = "the LiDAR's own height, tilt or numbers are doubted: they have to be put right before";
         let cannot = |camera| Verdict::cannot_judge(name(case, camera), Question::Camera, missing);

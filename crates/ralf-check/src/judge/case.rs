@@ -56,8 +56,18 @@ impl<'a> Case<'a> {
 
     /// The radars whose positions can be used.
     pub(super) fn radars(&self) -> impl Iterator<Item = usize> + use<'_> {
-        let is_fit = |radar: &usize| !self.unfit.contains(&self.sequence.rig.radars[*radar].name);
-        (0..self.sequence.rig.radars.len()).filter(is_fit)
+        let radars = self.sequence.rig.radars.iter().enumerate();
+        radars.filter(|(_, radar)| self.is_fit(&radar.name)).map(|(radar, _)| radar)
+    }
+
+    /// The cameras that look where it is known.
+    pub(super) fn cameras(&self) -> impl Iterator<Item = usize> + use<'_> {
+        let cameras = self.sequence.rig.cameras.iter().enumerate();
+        cameras.filter(|(_, camera)| self.is_fit(&camera.name)).map(|(camera, _)| camera)
+    }
+
+    fn is_fit(&self, name: &str) -> bool {
+        self.unfit.iter().all(|unfit| unfit != name)
     }
 
     /// Nothing else is asked of a radar whose positions can't be used, and that no setting puts right.

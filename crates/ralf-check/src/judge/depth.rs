@@ -19,8 +19,7 @@ const GAIN: f64 = 0.25;
 /// Judges the stored depth of each camera that has some.
 pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
     let knows_lidar = !is_lidar_doubted(case, known);
-    let cameras = 0..case.sequence.rig.cameras.len();
-    cameras.filter_map(|camera| one(case, camera, knows_lidar)).collect()
+    case.cameras().filter_map(|camera| one(case, camera, knows_lidar)).collect()
 }
 
 /// Of the views of a camera the first that is doubted, else the first.
