@@ -10,6 +10,9 @@ pub(crate) const OTHER_ORDER: &str =
 pub(crate) const OTHER_WAY: &str =
     "its mounting looks told the other way round: that of the vehicle in the sensor's frame";
 
+/// The key of the angle at which a LiDAR's lowest beam looks down.
+pub(crate) const LOWEST_BEAM: &str = "lowest_beam_deg";
+
 /// A remedy. Angles in degrees, lengths in m, times in ms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -15,9 +15,11 @@ const ASIDE_DEG: f64 = 30.0;
 /// rolls in place of turning by less than a fifth, so many degrees of driving aside are enough.
 const CLEAR: (f64, f64) = (6.0, 2.0);
 const ROLLING: (f64, f64) = (0.2, 1.5);
-/// Ways that tell where it drives: so many, of so many metres each. Standing vehicles jitter to all sides.
+/// Ways that tell where it drives: so many, of so many metres each, at no less than so many m/s. Standing vehicles
+/// jitter to all sides.
 const WAYS: usize = 5;
-const WAY: f64 = 1.0;
+const WAY: f64 = 3.0;
+const SLOWEST: f64 = 1.0;
 
 /// What speaks against how poses hold the vehicle.
 pub(super) fn judge(poses: &[PoseSample]) -> Option<Verdict> {
@@ -53,12 +55,16 @@ impl Attitude {
         for to in 1..poses.len() {
             let [a, b] = [from, to].map(|at| poses[at].odom_from_vehicle.translation.vector);
             let way = rotations[from].inverse() * (b - a);
-            if way.norm() >= WAY {
+            if way.norm() < WAY {
+                continue;
+            }
+            let seconds = (poses[to].t_ns - poses[from].t_ns) as f64 * 1e-9;
+            if way.norm() > SLOWEST * seconds {
                 asides.push((way.x.abs() / way.norm()).clamp(0.0, 1.0).acos().to_degrees());
                 let turned = (rotations[from].inverse() * rotations[to]).scaled_axis();
                 turning += turned.component_mul(&turned);
-                from = to;
             }
+            from = to;
         }
         let aside = median(&asides).filter(|_| asides.len() >= WAYS);
         let upright = if turning.sum() > 0.0 { turning.z / turning.sum() } else { 1.0 };
@@ -92,15 +98,16 @@ mod tests {
     use super::*;
     use nalgebra::{Isometry3, Quaternion, Translation3};
 
-    /// A vehicle that drives in a circle of 20 m, a part of it, and begins in this direction.
+    /// A vehicle that drives along an arc of a circle of 40 m, a small one of 200 m, and begins in this direction.
     fn poses(
         begin: f64,
         arc: f64,
         told: impl Fn(UnitQuaternion<f64>) -> UnitQuaternion<f64>,
     ) -> Vec<PoseSample> {
+        let radius = if arc < 0.3 { 200.0 } else { 40.0 };
         let pose = |at: i64| {
             let yaw = begin + arc * at as f64 / 50.0;
-            let place = Vector3::new(20.0 * yaw.sin(), -20.0 * yaw.cos(), 0.0);
+            let place = Vector3::new(radius * yaw.sin(), -radius * yaw.cos(), 0.0);
             let rotation = told(UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw));
             let odom_from_vehicle = Isometry3::from_parts(Translation3::from(place), rotation);
             PoseSample { t_ns: at * 100_000_000, odom_from_vehicle }
@@ -125,7 +132,7 @@ mod tests {
     fn quaternions_in_another_order_are_told() {
         let as_read =
             |q: UnitQuaternion<f64>| UnitQuaternion::from_quaternion(Quaternion::new(q.k, q.w, q.i, q.j));
-        for (begin, arc) in [(0.0, 2.0), (1.2, 0.5), (0.1, 6.0), (0.0, 0.4), (0.0, 0.1)] {
+        for (begin, arc) in [(0.0, 2.0), (1.2, 0.5), (0.1, 6.0), (0.0, 0.4), (0.0, 0.2)] {
             let told = poses(begin, arc, as_read);
             assert_eq!(says(&told), Some(Remedy::LookInto(OTHER_ORDER)), "{begin} {arc}");
         }

@@ -1,7 +1,7 @@
 //! A LiDAR's numbers: whether they were read as what they are.
 
 use super::out_of_reason;
-use crate::remedy::{OTHER_TYPE, Remedy};
+use crate::remedy::{LOWEST_BEAM, OTHER_TYPE, Remedy};
 use crate::sample::LidarLook;
 use crate::statistics::median;
 use crate::verdict::{Question, Verdict};
@@ -68,9 +68,9 @@ fn lowest_beam(lidar: &Lidar, looks: &[&LidarLook]) -> Option<Verdict> {
         return None;
     }
     let evidence =
-        format!("lowest_beam_deg = {told}, and its points lie as steeply as {seen:.1} degrees below it");
+        format!("{LOWEST_BEAM} = {told:.3}, and its points lie as steeply as {seen:.1} degrees below it");
     let in_radians = Some(told.to_degrees()).filter(|degrees| (degrees - seen).abs() < STEEPER_DEG);
-    let remedy = Remedy::Value { key: "lowest_beam_deg", value: in_radians.unwrap_or(seen) };
+    let remedy = Remedy::Value { key: LOWEST_BEAM, value: in_radians.unwrap_or(seen) };
     Some(Verdict::doubt(&lidar.name, Question::Bounds, evidence, Some(remedy)))
 }
 

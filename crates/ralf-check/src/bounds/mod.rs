@@ -19,7 +19,7 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     let mut verdicts = motion::judge(sequence);
     let (rig, times) = (&sequence.rig, &sequence.times);
     let radars = &times.radars;
-    let mountings = Mountings::new(rig, &sample.lidars);
+    let mountings = Mountings::new(sequence, sample);
     for ((radar, looks), times) in rig.radars.iter().zip(&sample.radars).zip(&times.radars) {
         let mut found = Vec::from_iter(mountings.judge(&radar.name));
         found.extend(radar::judge(radar, looks, &sequence.motion));

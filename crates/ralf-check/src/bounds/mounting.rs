@@ -1,19 +1,23 @@
 //! Where and how sensors are mounted: what is on no vehicle, and what a mounting looks like that was told in another
 //! way.
 
+use crate::change::used_motion;
+use crate::doppler::{compare, fits};
 use crate::ground::{GroundFit, SUPPORT};
 use crate::remedy::{OTHER_ORDER, OTHER_WAY, Remedy};
-use crate::sample::LidarLook;
+use crate::sample::{RadarLook, Sample};
 use crate::statistics::median;
 use crate::verdict::{Question, Verdict};
 use nalgebra::{Quaternion, UnitQuaternion};
-use ralf::sensors::Rig;
-use ralf::space::{Point, Transform};
+use ralf::sensors::Sequence;
+use ralf::space::{EgoMotion, Point, Transform};
 
 /// A sensor farther from the rear axle than this is on no vehicle, m.
 const FARTHEST: f64 = 20.0;
-/// What lies lower than the road by more than this is on no vehicle, m: z is rounded, and tyres give way.
-const BELOW_ROAD: f64 = 0.1;
+/// What lies lower than the road by more than this is on no vehicle, m: than what a LiDAR sees of it, and than z = 0
+/// where none does, for there are frames at an axle's height.
+const BELOW_ROAD: f64 = 0.2;
+const BELOW_ZERO: f64 = 0.3;
 /// Scans in which a LiDAR sees the road.
 const SCANS: usize = 3;
 /// A sensor that is held upright has its vertical axis within some 20 degrees of the vertical; one that isn't has it
@@ -42,6 +46,16 @@ pub(super) fn reordered(rotation: &UnitQuaternion<f64>, order: Order) -> UnitQua
     UnitQuaternion::from_quaternion(order(rotation.quaternion()))
 }
 
+/// Range rates go with a mounting whose direction is off by less than this, in so many scans, rad.
+const GOES_WITH: (f64, usize) = (0.1, 10);
+
+/// Whether a radar's range rates go with the vehicle's motion as it is mounted.
+fn goes_with(looks: &[RadarLook], motion: &EgoMotion, mount: &Transform) -> bool {
+    let (angle, scans) = GOES_WITH;
+    let figures = compare(&fits(looks), &used_motion(motion), mount);
+    figures.is_some_and(|figures| figures.scans >= scans && figures.angle.value.abs() < angle)
+}
+
 /// A sensor as it is mounted.
 #[derive(Clone, Copy)]
 struct Mounted<'a> {
@@ -49,6 +63,8 @@ struct Mounted<'a> {
     mount: &'a Transform,
     /// A camera's frame is x right, y down and z ahead; others have x ahead and z up.
     is_camera: bool,
+    /// Whether what it measures goes with how it is turned.
+    is_acquitted: bool,
 }
 
 /// The mountings of a rig.
@@ -59,15 +75,26 @@ pub(super) struct Mountings<'a> {
 }
 
 impl<'a> Mountings<'a> {
-    pub(super) fn new(rig: &'a Rig, looks: &'a [LidarLook]) -> Self {
-        let of = |is_camera| move |(name, mount)| Mounted { name, mount, is_camera };
-        let radars = rig.radars.iter().map(|radar| (radar.name.as_str(), &radar.vehicle_from_radar));
-        let lidars = rig.lidars.iter().map(|lidar| (lidar.name.as_str(), &lidar.vehicle_from_lidar));
-        let cameras = rig.cameras.iter().map(|camera| (camera.name.as_str(), &camera.vehicle_from_camera));
-        let sensors = radars.chain(lidars).map(of(false)).chain(cameras.map(of(true))).collect();
-        let road: Vec<&GroundFit> = looks.iter().filter_map(|look| look.ground.as_ref()).collect();
-        let road = road.into_iter().filter(|fit| fit.support >= SUPPORT).collect();
-        Self { sensors, road }
+    pub(super) fn new(sequence: &'a Sequence, sample: &'a Sample) -> Self {
+        let Sequence { rig, motion, .. } = sequence;
+        let of = |name, mount, is_acquitted| Mounted { name, mount, is_camera: false, is_acquitted };
+        let radars = rig.radars.iter().zip(&sample.radars).map(|(radar, looks)| {
+            let mount = &radar.vehicle_from_radar;
+            of(radar.name.as_str(), mount, goes_with(looks, motion, mount))
+        });
+        let road_of = |lidar: Option<usize>| {
+            let looks =
+                sample.lidars.iter().filter(move |look| lidar.is_none_or(|lidar| look.lidar == lidar));
+            looks.filter_map(|look| look.ground.as_ref()).filter(|fit| fit.support >= SUPPORT)
+        };
+        let lidars = rig.lidars.iter().enumerate().map(|(at, lidar)| {
+            of(lidar.name.as_str(), &lidar.vehicle_from_lidar, road_of(Some(at)).next().is_some())
+        });
+        let cameras = rig.cameras.iter().map(|camera| Mounted {
+            is_camera: true,
+            ..of(camera.name.as_str(), &camera.vehicle_from_camera, false)
+        });
+        Self { sensors: radars.chain(lidars).chain(cameras).collect(), road: road_of(None).collect() }
     }
 
     /// What speaks against the mounting of the sensor of this name.
@@ -77,11 +104,13 @@ impl<'a> Mountings<'a> {
         far.or_else(|| self.other_order(own)).or_else(|| own.camera()).or_else(|| self.below_the_road(own))
     }
 
-    /// A quaternion that is upright in another order only. One that is turned over as it is may be right: radars are
-    /// mounted so; but not where another one of the rig asks for the same order.
+    /// A quaternion that is upright in another order only, of a sensor that nothing acquits. One that is turned over as
+    /// it is may be right: radars are mounted so; but not where another one of the rig asks for the same order.
     fn other_order(&self, own: &Mounted) -> Option<Verdict> {
         let is_askew_but_for = |sensor: &Mounted, order: Order| {
-            sensor.upright().abs() < ASKEW && sensor.reordered(order).is_some_and(|up| up > UPRIGHT)
+            !sensor.is_acquitted
+                && sensor.upright().abs() < ASKEW
+                && sensor.reordered(order).is_some_and(|up| up > UPRIGHT)
         };
         let is_of_rig = |order: &Order| self.sensors.iter().any(|other| is_askew_but_for(other, *order));
         let is_own =
@@ -93,23 +122,31 @@ impl<'a> Mountings<'a> {
 
     fn below_the_road(&self, own: &Mounted) -> Option<Verdict> {
         let height = self.height(own.mount);
-        if height > -BELOW_ROAD {
+        let least = if self.sees_road() { BELOW_ROAD } else { BELOW_ZERO };
+        if height > -least {
             return None;
         }
         let back = own.mount.inverse();
         let looks_in = own.mount.translation.vector.xy().dot(&own.ahead().xy()) < 0.0;
-        let is_back =
-            looks_in && own.mount.translation.vector.xy().norm() > OUTER && self.height(&back) > BELOW_ROAD;
-        let what =
-            if is_back { OTHER_WAY } else { "is z down, or the mounting that of the vehicle in its frame?" };
+        let is_outside = own.mount.translation.vector.xy().norm() > OUTER;
+        let what = match looks_in && is_outside && self.height(&back) > 0.0 {
+            true => OTHER_WAY,
+            false => {
+                "is z down, is the vehicle's frame above the road, or is it the vehicle's mounting in its frame?"
+            }
+        };
         Some(own.doubt(format!("mounted {:.2} m below the road", -height), what))
+    }
+
+    fn sees_road(&self) -> bool {
+        self.road.len() >= SCANS
     }
 
     /// The height of a mounting above the road: above z = 0, or the plane that LiDARs see, whichever is lower.
     fn height(&self, mount: &Transform) -> f64 {
         let place = Point::from(mount.translation.vector);
         let seen: Vec<f64> = self.road.iter().map(|fit| fit.height(&place)).collect();
-        let seen = median(&seen).filter(|_| seen.len() >= SCANS);
+        let seen = median(&seen).filter(|_| self.sees_road());
         seen.map_or(place.z, |seen| place.z.max(seen))
     }
 }
@@ -126,7 +163,7 @@ impl Mounted<'_> {
         (distance > FARTHEST).then(|| self.doubt(evidence, "the translation looks like cm"))
     }
 
-    /// A camera whose mounting was told the other way round, or in the axes of other sensors.
+    /// A camera whose mounting was told the other way round, or in the axes of other sensors, whose z is up.
     fn camera(&self) -> Option<Verdict> {
         if !self.is_camera || self.upright().abs() > ASKEW {
             return None;
@@ -135,10 +172,8 @@ impl Mounted<'_> {
             let evidence = format!("its images are tilted by {:.0} degrees", self.tilt_deg());
             return Some(self.doubt(evidence, OTHER_WAY));
         }
-        let up = self.ahead().z;
-        let way = if up > 0.0 { "up" } else { "down" };
         let what = "a camera's frame is x right, y down and z ahead: do its axes look like another one's?";
-        (up.abs() > UPRIGHT).then(|| self.doubt(format!("it looks straight {way}"), what))
+        (self.ahead().z > UPRIGHT).then(|| self.doubt("it looks straight up".into(), what))
     }
 
     /// The cosine between its vertical axis and the vertical.
@@ -182,8 +217,12 @@ mod tests {
     fn says(sensors: &[(bool, Transform)]) -> Vec<Option<&'static str>> {
         let names: Vec<String> = (0..sensors.len()).map(|at| at.to_string()).collect();
         let mounted = sensors.iter().zip(&names);
-        let mounted =
-            mounted.map(|((is_camera, mount), name)| Mounted { name, mount, is_camera: *is_camera });
+        let mounted = mounted.map(|((is_camera, mount), name)| Mounted {
+            name,
+            mount,
+            is_camera: *is_camera,
+            is_acquitted: false,
+        });
         let mountings = Mountings { sensors: mounted.collect(), road: Vec::new() };
         let remedy = |name: &String| match mountings.judge(name)?.remedy {
             Some(Remedy::LookInto(what)) => Some(what),

@@ -3,7 +3,7 @@
 use super::case::Case;
 use crate::change::SensorChange;
 use crate::picture::{CameraLook, FEWEST_IMAGES, OddSize};
-use crate::remedy::Remedy;
+use crate::remedy::{LOWEST_BEAM, Remedy};
 use crate::statistics::paired_sigmas;
 use crate::verdict::{Question, State, Verdict};
 use ralf::space::Transform;
@@ -42,13 +42,15 @@ pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
     verdicts
 }
 
-/// Whether something of a LiDAR is doubted that is not put right for the questions that follow.
+/// Whether something of a LiDAR is doubted that is not put right for the questions that follow; where its points lie
+/// has nothing to do with how far down it looks.
 pub(super) fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
     let is_lidar = |name: &str| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == name);
     known.iter().any(|verdict| {
         verdict.state == State::Doubt
             && matches!(verdict.question, Question::Ground | Question::Bounds)
             && is_lidar(&verdict.subject)
+            && !matches!(verdict.remedy, Some(Remedy::Value { key: LOWEST_BEAM, .. }))
     })
 }
 

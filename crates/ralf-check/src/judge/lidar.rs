@@ -68,12 +68,13 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     Some(Verdict::doubt(name, Question::Motion, evidence, Some(Remedy::Sensor(change))))
 }
 
-/// Whether no more of the radars' detections than now would lie beside a LiDAR's points under a change: a lone vehicle
-/// that overtakes asks for a turn that nothing else does.
+/// Whether the radars' detections, which don't lie beside a LiDAR's points now, no more do so under a change: a lone
+/// vehicle that overtakes asks for a turn that nothing else does. Radars that go with it may be turned like it.
 fn do_radars_rather_deny(case: &Case, lidar: usize, change: &SensorChange) -> bool {
     let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
     let [now, then] = [SensorChange::default(), *change].map(|change| tally(&change));
-    now.is_enough() && then.share() <= now.share()
+    let chance = || joined(elsewhere().map(|turn| tally(&turn)).collect());
+    now.is_enough() && then.share() <= now.share() && !now.is_above_chance(&chance())
 }
 
 /// All turns.

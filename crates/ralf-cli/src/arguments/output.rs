@@ -36,7 +36,7 @@ pub(crate) fn check_model(argument: &str, file: &Path, read_only: &[&Path]) -> a
         Ok(_) => "another text, or one that was changed since",
         Err(_) => "another file",
     };
-    let expected = "nothing yet, or a model that `ralf learn` wrote";
+    let expected = "nothing yet, or a model as `ralf learn` writes it";
     let what_to_do = "which would be lost: move it away, or choose another name";
     Err(UsageError(format!(
         "{argument}: {}: expected {expected}, found {found}, {what_to_do}",

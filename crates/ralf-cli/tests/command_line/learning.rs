@@ -122,7 +122,7 @@ fn what_cannot_be_learned_or_asked_is_refused_and_nothing_is_written() {
         fs::write(&model, text).unwrap();
         ralf(["learn", "--preset", "worlds", "-o", &model, "-q"])
             .exits(2)
-            .says(["a model that `ralf learn` wrote"]);
+            .says(["a model as `ralf learn` writes it"]);
         assert_eq!(fs::read_to_string(&model).unwrap(), text);
     }
     for (text, expected) in [

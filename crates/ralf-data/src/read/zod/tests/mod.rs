@@ -174,7 +174,7 @@ fn what_is_damaged_names_file_and_place() {
     change(
         &calibration,
         &|v| v["FC"]["radar_extrinsics"][1][3] = json!(1e308),
-        &["calibration.json: FC, radar_extrinsics: expected at most 1000 m from the vehicle, found 1000"],
+        &["calibration.json: FC, radar_extrinsics: expected at most 1000 m from the vehicle, found 1e308"],
     );
     change(&calibration, &|v| v["FC"]["image_dimensions"][0] = json!(0), &["numbers above 0"]);
     change(
