@@ -18,7 +18,7 @@ const ROLLING: (f64, f64) = (0.2, 1.5);
 /// Ways that tell where it drives: so many, of so many metres each, at no less than so many m/s. Standing vehicles
 /// jitter to all sides.
 const WAYS: usize = 5;
-const WAY: f64 = 3.0;
+const WAY: f64 = 2.0;
 const SLOWEST: f64 = 1.0;
 
 /// What speaks against how poses hold the vehicle.

@@ -17,6 +17,8 @@ const TAKES_PART: f64 = 2.0;
 const STEP_DEG: i32 = 5;
 /// Another direction is the right one where so many times as much stands still, and this share of all at least.
 const STANDS_STILL: (f64, f64) = (1.5, 0.5);
+/// Of more detections beside a LiDAR's points the radars go with it.
+const GO_TOGETHER: f64 = 0.2;
 /// Of so few detections beside a LiDAR's points it doesn't see what the radars see.
 pub(super) const APART: f64 = 0.02;
 
@@ -68,13 +70,14 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     Some(Verdict::doubt(name, Question::Motion, evidence, Some(Remedy::Sensor(change))))
 }
 
-/// Whether the radars' detections, which don't lie beside a LiDAR's points now, no more do so under a change: a lone
-/// vehicle that overtakes asks for a turn that nothing else does. Radars that go with it may be turned like it.
+/// Whether no more of the radars' detections than now would lie beside a LiDAR's points under a change: a lone vehicle
+/// that overtakes asks for a turn that nothing else does. Radars that go with the LiDAR may be turned like it, unless
+/// range rates know them.
 fn do_radars_rather_deny(case: &Case, lidar: usize, change: &SensorChange) -> bool {
     let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
     let [now, then] = [SensorChange::default(), *change].map(|change| tally(&change));
-    let chance = || joined(elsewhere().map(|turn| tally(&turn)).collect());
-    now.is_enough() && then.share() <= now.share() && !now.is_above_chance(&chance())
+    let [aligned, askew] = by_range_rates(case);
+    now.is_enough() && then.share() <= now.share() && (now.share() < GO_TOGETHER || aligned > askew)
 }
 
 /// All turns.
@@ -129,9 +132,15 @@ fn apart(name: &str, now: &Tally) -> Verdict {
 
 /// A yaw that the radars' own range rates ask for as well is not the LiDAR's.
 fn is_the_radars_own(case: &Case, found: &SensorChange) -> bool {
+    let [aligned, askew] = by_range_rates(case);
+    (found.turn_deg[2] != 0.0 || found.mirrored) && askew > aligned
+}
+
+/// How many radars look where their range rates say, and how many don't.
+fn by_range_rates(case: &Case) -> [usize; 2] {
     let figures = case.radars().filter_map(|radar| case.doppler(radar, &case.motion, &case.mount(radar)));
     let (aligned, askew): (Vec<_>, Vec<_>) = figures.partition(is_aligned);
-    (found.turn_deg[2] != 0.0 || found.mirrored) && askew.len() > aligned.len()
+    [aligned.len(), askew.len()]
 }
 
 /// A tally per radar with the scans of this LiDAR alone.
