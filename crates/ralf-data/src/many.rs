@@ -115,10 +115,51 @@ impl Job {
     /// # Errors
     /// Those of [`LabelRun::execute`] and [`Self::open`].
     pub fn label(&self, jobs: NonZeroUsize, observer: &dyn Observer) -> Result<Outcome, DataError> {
-        self.with_run(jobs, |run| match self.check {
+        self.with_run(jobs, |run| self.execute(run, observer))
+    }
+
+    /// The same, and of which cameras the stores hold some images, and not all.
+    ///
+    /// # Errors
+    /// Those of [`Self::label`].
+    pub fn label_and_tell(
+        &self,
+        jobs: NonZeroUsize,
+        observer: &dyn Observer,
+    ) -> Result<(Outcome, Vec<Lacking>), DataError> {
+        self.with_run(jobs, |run| {
+            let lacking = self.lacking(run)?;
+            Ok((self.execute(run, observer)?, lacking))
+        })
+    }
+
+    /// What labels a recording as this job says: the job's own, or one in memory.
+    pub fn run<'a>(
+        &'a self,
+        recording: &'a Recording,
+        model: Option<&'a Model>,
+        jobs: NonZeroUsize,
+    ) -> LabelRun<'a> {
+        LabelRun {
+            recording,
+            settings: &self.settings,
+            out: &self.out,
+            jobs: jobs.get(),
+            checks: &[],
+            evidence: self.evidence,
+            model,
+        }
+    }
+
+    fn execute(&self, run: &LabelRun, observer: &dyn Observer) -> Result<Outcome, DataError> {
+        match self.check {
             true => run.execute_and_check(observer, &|_| {}),
             false => run.execute(observer),
-        })
+        }
+    }
+
+    fn lacking(&self, run: &LabelRun) -> Result<Vec<Lacking>, DataError> {
+        lacking(run.recording, self.depth.as_deref(), self.segmentation.as_deref(), &run.settings.method)
     }
 
     /// The same, with paths that lead to the same places from every folder.
@@ -142,15 +183,7 @@ impl Job {
     ) -> Result<T, DataError> {
         let recording = self.open()?;
         let model = self.model()?;
-        work(&LabelRun {
-            recording: &recording,
-            settings: &self.settings,
-            out: &self.out,
-            jobs: jobs.get(),
-            checks: &[],
-            evidence: self.evidence,
-            model: model.as_ref(),
-        })
+        work(&self.run(&recording, model.as_ref(), jobs))
     }
 
     fn model(&self) -> Result<Option<Model>, DataError> {
@@ -203,8 +236,7 @@ pub fn plan(
     let file = job.out.join(PLAN);
     let keep = || write_json(&file, &job);
     let planned = job.with_run(jobs, |run| {
-        let lacking =
-            lacking(run.recording, job.depth.as_deref(), job.segmentation.as_deref(), &run.settings.method)?;
+        let lacking = job.lacking(run)?;
         Ok((run.plan_and(keep, scans, observer)?, lacking))
     });
     if planned.is_err() && !files::exists(&file)? {

@@ -4,12 +4,11 @@ use crate::errors::{data, in_file, other};
 use crate::table::{Table, table_of};
 use crate::watch::watched;
 use pyo3::prelude::*;
-use ralf::learned::Model;
 use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
-use ralf_data::run::{Earlier, LabelRun, Outcome, read_record};
-use ralf_data::views::{Lacking, lacking};
-use ralf_data::{DataError, Recording, Settings};
+use ralf_data::run::{Earlier, Outcome, read_record};
+use ralf_data::views::Lacking;
+use ralf_data::{DataError, Settings};
 use ralf_files::Kind;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -88,34 +87,8 @@ pub(crate) fn label(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Done> {
     let job = job.resolve()?;
-    let (done, lacking) = watched(py, progress.as_ref(), |watch| {
-        let recording = job.open()?;
-        let model = many::model_of(job.settings.method.method, job.model.as_deref())?;
-        let run = run_of(&job, &recording, model.as_ref(), threads(jobs));
-        let stored = [&job.depth, &job.segmentation].map(Option::as_deref);
-        let lacking = lacking(&recording, stored[0], stored[1], &job.settings.method)?;
-        let done = if job.check { run.execute_and_check(watch, &|_| {}) } else { run.execute(watch) };
-        Ok((done?, lacking))
-    })?;
+    let (done, lacking) = watched(py, progress.as_ref(), |watch| job.label_and_tell(threads(jobs), watch))?;
     Ok(told(done, &lacking))
-}
-
-/// What labels a recording as a job says.
-pub(crate) fn run_of<'a>(
-    job: &'a Job,
-    recording: &'a Recording,
-    model: Option<&'a Model>,
-    jobs: NonZeroUsize,
-) -> LabelRun<'a> {
-    LabelRun {
-        recording,
-        settings: &job.settings,
-        out: &job.out,
-        jobs: jobs.get(),
-        checks: &[],
-        evidence: job.evidence,
-        model,
-    }
 }
 
 /// What was done: the sequences that this call has labelled, those that were asked for, what became of earlier results,

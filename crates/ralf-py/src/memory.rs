@@ -2,7 +2,7 @@
 
 use crate::arrays::{depth, image, numbers, rows};
 use crate::errors::{data, other};
-use crate::labelling::{ToldJob, from_json, run_of, threads, to_json};
+use crate::labelling::{ToldJob, from_json, threads, to_json};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
@@ -130,7 +130,7 @@ impl MemorySequence {
         let (labelled, check, warnings) = watched(py, progress.as_ref(), |watch| {
             let check = if job.check { check_all(&self.recording, jobs.get()) } else { Vec::new() };
             let model = model_of(job.settings.method.method, job.model.as_deref())?;
-            let run = run_of(&job, &self.recording, model.as_ref(), jobs);
+            let run = job.run(&self.recording, model.as_ref(), jobs);
             Ok((run.in_memory(watch)?, check, run.warnings()))
         })?;
         let name = &self.sequence().sequence().name;

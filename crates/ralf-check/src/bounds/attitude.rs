@@ -95,6 +95,7 @@ impl Attitude {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mounting::w_third;
     use super::*;
     use nalgebra::{Isometry3, Quaternion, Translation3};
 
@@ -130,8 +131,8 @@ mod tests {
 
     #[test]
     fn quaternions_in_another_order_are_told() {
-        let as_read =
-            |q: UnitQuaternion<f64>| UnitQuaternion::from_quaternion(Quaternion::new(q.k, q.w, q.i, q.j));
+        // It undoes the other order.
+        let as_read = |q: UnitQuaternion<f64>| reordered(&q, w_third);
         for (begin, arc) in [(0.0, 2.0), (1.2, 0.5), (0.1, 6.0), (0.0, 0.4), (0.0, 0.2)] {
             let told = poses(begin, arc, as_read);
             assert_eq!(says(&told), Some(Remedy::LookInto(OTHER_ORDER)), "{begin} {arc}");

@@ -37,7 +37,7 @@ pub(super) fn w_first(q: &Quaternion<f64>) -> Quaternion<f64> {
     Quaternion::new(q.i, q.j, q.k, q.w)
 }
 
-fn w_third(q: &Quaternion<f64>) -> Quaternion<f64> {
+pub(super) fn w_third(q: &Quaternion<f64>) -> Quaternion<f64> {
     Quaternion::new(q.k, q.w, q.i, q.j)
 }
 
@@ -52,7 +52,7 @@ const GOES_WITH: (f64, usize) = (0.1, 10);
 /// Whether a radar's range rates go with the vehicle's motion as it is mounted.
 fn goes_with(looks: &[RadarLook], motion: &EgoMotion, mount: &Transform) -> bool {
     let (angle, scans) = GOES_WITH;
-    let figures = compare(&fits(looks), &used_motion(motion), mount);
+    let figures = compare(&fits(looks), motion, mount);
     figures.is_some_and(|figures| figures.scans >= scans && figures.angle.value.abs() < angle)
 }
 
@@ -76,11 +76,11 @@ pub(super) struct Mountings<'a> {
 
 impl<'a> Mountings<'a> {
     pub(super) fn new(sequence: &'a Sequence, sample: &'a Sample) -> Self {
-        let Sequence { rig, motion, .. } = sequence;
+        let (rig, motion) = (&sequence.rig, used_motion(&sequence.motion));
         let of = |name, mount, is_acquitted| Mounted { name, mount, is_camera: false, is_acquitted };
         let radars = rig.radars.iter().zip(&sample.radars).map(|(radar, looks)| {
             let mount = &radar.vehicle_from_radar;
-            of(radar.name.as_str(), mount, goes_with(looks, motion, mount))
+            of(radar.name.as_str(), mount, goes_with(looks, &motion, mount))
         });
         let road_of = |lidar: Option<usize>| {
             let looks =

@@ -10,3 +10,11 @@ pub(crate) use motion::{changed_motion_overlap, motion_overlap, radar_motion_ove
 pub(crate) use neighbours::{LidarPair, RadarPair, Side};
 pub(crate) use radar_lidar::{Measure, Setup, obstacles_in_view, overlap};
 pub(crate) use tally::Tally;
+
+use ralf::space::Point;
+use std::ops::Range;
+
+/// Whether a place in a radar's frame lies in these ranges and in its field of view, half of which is told, m and rad.
+fn is_in_view(own: &Point, ranges: &Range<f64>, half_view: f64) -> bool {
+    ranges.contains(&own.coords.norm()) && own.y.atan2(own.x).abs() < half_view
+}

@@ -1,6 +1,6 @@
 //! Which share of what one sensor saw lies on what another of its kind saw at the same time, where their views overlap.
 
-use super::Tally;
+use super::{Tally, is_in_view};
 use crate::change::SensorChange;
 use crate::plan_field::PlanField;
 use crate::sample::{LidarLook, RadarLook, nearest};
@@ -79,9 +79,7 @@ impl<'a> RadarPair<'a> {
             for position in look.positions.iter().filter(|p| RANGES.contains(&p.coords.norm())) {
                 let p = place * change.place(position);
                 let own = radar_from_vehicle * p;
-                let is_seen =
-                    RANGES.contains(&own.coords.norm()) && own.y.atan2(own.x).abs() < self.half_view;
-                if !is_seen {
+                if !is_in_view(&own, &RANGES, self.half_view) {
                     continue;
                 }
                 let field = seen.field.get_or_init(|| self.laid_over(seen.t_ns));

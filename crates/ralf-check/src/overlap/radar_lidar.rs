@@ -1,6 +1,6 @@
 //! Which share of a radar's detections has a LiDAR point beside it, as recorded and under changes.
 
-use super::Tally;
+use super::{Tally, is_in_view};
 use crate::change::SensorChange;
 use crate::sample::{LidarLook, RadarLook, nearest};
 use ralf::sensors::Rig;
@@ -100,12 +100,10 @@ impl Way {
 pub(crate) fn obstacles_in_view(setup: &Setup, radar: usize, change: &SensorChange) -> f64 {
     let sensor = &setup.rig.radars[radar];
     let radar_from_vehicle = change.mount(&sensor.vehicle_from_radar).inverse();
-    let is_in_view = |probe: &&Point| {
-        let own = radar_from_vehicle * *probe;
-        let is_near = (NEAREST..FARTHEST).contains(&own.coords.norm());
-        is_near && own.y.atan2(own.x).abs() < sensor.fov_azimuth / 2.0
+    let is_seen = |probe: &&Point| {
+        is_in_view(&(radar_from_vehicle * *probe), &(NEAREST..FARTHEST), sensor.fov_azimuth / 2.0)
     };
-    let seen = setup.lidars.iter().map(|lidar| lidar.probes.iter().filter(is_in_view).count());
+    let seen = setup.lidars.iter().map(|lidar| lidar.probes.iter().filter(is_seen).count());
     seen.sum::<usize>() as f64 / setup.lidars.len().max(1) as f64
 }
 
