@@ -2,7 +2,7 @@
 """Judges evidence from outside: gradient-boosted trees (LightGBM) that never saw a family of worlds label that family.
 
     judge_families.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [--rounds N] [--leaves N] [--rate R]
-                      [--rows N] [--of-world N] [--seed S] [--no-groups] [--corrected SHARE [--apart]]
+                      [--rows N] [--of-world N] [--seed S] [--no-groups]
 
 DATASET is a recording with its truth (`ralf simulate --preset worlds --family FAMILY --seed S -o DATASET`), OUT what
 `ralf label DATASET -o OUT --evidence` made of it. Worlds of one FAMILY are left out together. Printed are, for each family
@@ -12,10 +12,6 @@ by the paper's method itself; and what is lost where one group of evidence is mi
 
 A FAMILY like survey+yard+motorway is a mixture, as `ralf simulate --family` makes them: it is learned from where none of its
 parts is left out, and never judged.
-
-With --corrected SHARE instead: what it brings to correct so many of a family's scans, by weight of a corrected detection,
-beside a model that knows half of its scans; judged on the other half, in which nothing was corrected. With --apart the
-halves are sequences: none is judged of which a scan is known.
 
 Needs lightgbm, numpy, pyarrow and scikit-learn.
 """
@@ -54,20 +50,18 @@ def groups_of_features():
 
 
 def read_world(dataset, out, names):
-    """Features (absent: NaN), the paper's columns, labels of the paper's method, truth, and the scan and the sequence of
-    each, of all its sequences."""
-    parts, scans = [], 0
-    for sequence, file in enumerate(sorted(Path(out).glob("sequences/*/plausibility.parquet"))):
+    """Features (absent: NaN), the paper's columns, labels of the paper's method and truth, of all its sequences."""
+    parts = []
+    for file in sorted(Path(out).glob("sequences/*/plausibility.parquet")):
         table = pyarrow.parquet.read_table(file)
         missing = [name for name in names if name not in table.column_names]
         if missing:
             sys.exit(f"{file}: no column {', '.join(missing)}: label with --evidence")
         truth_folder = Path(dataset) / "sequences" / file.parent.name / "ground_truth"
         radar, scan = table["radar"].to_numpy(zero_copy_only=False), table["scan"].to_numpy()
-        truth, number = numpy.full(len(table), -1), numpy.zeros(len(table), int)
+        truth = numpy.full(len(table), -1)
         begins = numpy.flatnonzero(numpy.r_[True, (radar[1:] != radar[:-1]) | (scan[1:] != scan[:-1])])
         for begin, end in zip(begins, numpy.r_[begins[1:], len(table)]):
-            number[begin:end], scans = scans, scans + 1
             labels = truth_folder / radar[begin] / f"{scan[begin]:06}.label"
             if labels.exists():
                 ids = numpy.fromfile(labels, "<u4") & 0xFFFF
@@ -77,8 +71,7 @@ def read_world(dataset, out, names):
         known = truth >= 0
         features = numpy.column_stack([column(name) for name in names])[known]
         paper = numpy.column_stack([column(name) for name in PAPER])[known]
-        label, sequences = table["label"].to_numpy(), numpy.full(len(table), sequence)
-        parts.append((features, paper, label[known], truth[known], number[known], sequences[known]))
+        parts.append((features, paper, table["label"].to_numpy()[known], truth[known]))
     if not parts:
         sys.exit(f"{out}: no sequences/*/plausibility.parquet")
     return [numpy.concatenate(part) for part in zip(*parts)]
@@ -120,8 +113,6 @@ class Worlds(NamedTuple):
     paper: numpy.ndarray
     labels: numpy.ndarray
     truth: numpy.ndarray
-    scan: numpy.ndarray
-    sequence: numpy.ndarray
     # Of each row the place of its family, or MIXTURE, and which families its world has parts of.
     family: numpy.ndarray
     holds: numpy.ndarray
@@ -135,11 +126,10 @@ def read_worlds(options, names):
     if len(families) < 2:
         sys.exit("two families or more, so that one can be left out")
     lengths, parts = [len(world[4]) for world in worlds], [world[0].split("+") for world in worlds]
-    firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])[:-1]
     number = lambda part: families.index(part[0]) if len(part) == 1 else MIXTURE
-    features, paper, labels, truth, scan, sequence = (together(worlds, column) for column in range(1, 7))
+    features, paper, labels, truth = (together(worlds, column) for column in range(1, 5))
     return Worlds(
-        families, features, paper, labels, truth, scan + numpy.repeat(firsts, lengths), sequence,
+        families, features, paper, labels, truth,
         family=numpy.repeat([number(part) for part in parts], lengths),
         holds=numpy.repeat([[name in part for name in families] for part in parts], lengths, axis=0),
     )
@@ -180,36 +170,6 @@ def judge(scores, worlds):
         precision = average_precision_score(truth[here], scores[here])
         rows.append([f1_of(labels, truth[here] == 1), precision, right, calibration_error(p, truth[here])])
     return numpy.array(rows)
-
-
-def corrected(worlds, options):
-    """Average precision and F1 (at even odds) of each family by a model of the others, with some scans of its own."""
-    features, truth, scan = worlds.features, worlds.truth, worlds.scan
-    draw = numpy.random.default_rng(options.seed)
-    known_half, drawn = draw.random(scan.max() + 1) < 0.5, draw.random(scan.max() + 1)
-    half = worlds.sequence % 2 == 0 if options.apart else known_half[scan]
-    rows = []
-    for left_out in range(len(worlds.families)):
-        here = worlds.family == left_out
-        others, test = numpy.flatnonzero(~worlds.holds[:, left_out]), here & ~half
-        others = draw.choice(others, min(options.rows, len(others)), replace=False)
-        some = numpy.flatnonzero(here & half & (drawn[scan] < 2 * options.corrected))
-        row = []
-        for own, weight in [(some[:0], 1), (some, 1), (some, 5), (some, 20), (numpy.flatnonzero(here & half), 1)]:
-            train, weights = numpy.r_[others, own], numpy.r_[numpy.ones(len(others)), numpy.full(len(own), weight)]
-            data = lightgbm.Dataset(features[train], truth[train], weight=weights)
-            scores = lightgbm.train(parameters(options), data, options.rounds).predict(features[test])
-            row += [average_precision_score(truth[test], scores), f1_of(scores >= 0.5, truth[test] == 1)]
-        rows.append(row)
-    return numpy.array(rows)
-
-
-def print_corrected(worlds, options):
-    print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
-    print("| --- " * 11 + "|")
-    rows = corrected(worlds, options)
-    for name, row in zip([*worlds.families, "mean"], [*rows, rows.mean(0)]):
-        print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
 
 
 def print_families(worlds, every, of_paper):
@@ -257,17 +217,12 @@ def parser_of(description):
 def read_options():
     parser = parser_of(__doc__)
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
-    parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
-    parser.add_argument("--apart", action="store_true", help="correct in every other sequence, and judge in those between")
     return parser.parse_args()
 
 
 def main():
     options, groups = read_options(), groups_of_features()
     worlds = read_worlds(options, list(groups))
-    if options.corrected:
-        print_corrected(worlds, options)
-        return
     every = judge(out_of_fold(worlds.features, worlds, options), worlds)
     of_paper = judge(out_of_fold(worlds.paper, worlds, options), worlds)
     rows, share = len(worlds.truth), worlds.truth.mean()

@@ -3,7 +3,7 @@
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::grouped;
-use anyhow::bail;
+use anyhow::anyhow;
 use ralf_data::{Corrections, GroundTruth, Recording, told_orphaned};
 use std::fmt::Display;
 use std::path::Path;
@@ -26,20 +26,43 @@ pub(crate) fn merged_truth(
         None => Corrections::open(out)?,
     };
     let outcome = say_orphaned(corrections.orphaned());
-    let file = corrections.file().display();
     if corrections.is_empty() && asked {
         let has_others = recording.is_some() && !Corrections::open(out)?.is_empty();
-        let fitting = if has_others { format!(" that fit {}", dataset.display()) } else { String::new() };
-        bail!("{file}: expected corrections, found none{fitting}");
+        return Err(none_of(&corrections, dataset, has_others));
     }
     if !corrections.is_empty() {
-        say(&format!(
-            "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
-            grouped(corrections.corrected_detections() as u64),
-            grouped(corrections.reviewed_scans() as u64)
-        ));
+        say(&told(&corrections, "merged into the truth"));
     }
     Ok((GroundTruth::merged(dataset, corrections)?, outcome))
+}
+
+/// What people corrected and accepted in an output folder of a recording, which is said, and nothing else; there must
+/// be something. Corrections of scans that hold something else now are named and left out; the outcome tells.
+pub(crate) fn said_truth(recording: &Recording, out: &Path) -> anyhow::Result<(GroundTruth, Outcome)> {
+    Corrections::check_there(out)?;
+    let corrections = Corrections::of_recording(out, recording)?;
+    let outcome = say_orphaned(corrections.orphaned());
+    let said = told(&corrections, "learned");
+    let none = none_of(&corrections, &recording.path, !Corrections::open(out)?.is_empty());
+    let truth = GroundTruth::of_corrections(&recording.path, corrections).ok_or(none)?;
+    say(&said);
+    Ok((truth, outcome))
+}
+
+/// How much was said, and what becomes of it.
+fn told(corrections: &Corrections, are: &str) -> String {
+    format!(
+        "{}: {} corrected detections and {} reviewed scans are {are}",
+        corrections.file().display(),
+        grouped(corrections.corrected_detections() as u64),
+        grouped(corrections.reviewed_scans() as u64)
+    )
+}
+
+/// Corrections that were asked for and aren't there, though others may be.
+fn none_of(corrections: &Corrections, dataset: &Path, has_others: bool) -> anyhow::Error {
+    let fitting = if has_others { format!(" that fit {}", dataset.display()) } else { String::new() };
+    anyhow!("{}: expected corrections, found none{fitting}", corrections.file().display())
 }
 
 /// Names the scans whose corrections belong to another content, and tells how it ended by that.

@@ -21,8 +21,8 @@ pub struct TrainingGatherer<'a> {
     pub config: &'a Config,
     /// Of what is drawn: which scans are also seen as if less could be observed.
     pub seed: u64,
-    /// How much each detection counts; above 0.
-    pub weight: f32,
+    /// Whether detections of which nobody spoke are gathered, too, of scans of which somebody said something.
+    pub unsaid: bool,
     /// One in so many scans of each radar of a simulated recording is learned from, at least one of each sequence; the
     /// others are what lies around. 0 is 1.
     pub every: usize,
@@ -47,15 +47,15 @@ impl TrainingGatherer<'_> {
         TrainingTable::new(features().collect())
     }
 
-    /// Adds all detections with truth of a recording to a table, as those of a world of this name; without one, every
-    /// sequence is a world. Scans that can't be read are left out, and told, sequence by sequence.
+    /// Adds all detections with truth of a recording to a table; `world` names the world of a sequence by its name.
+    /// Scans that can't be read are left out, and told, sequence by sequence.
     ///
     /// # Errors
     /// Truth that doesn't fit the recording, or settings that don't. The table then holds the sequences before.
     pub fn add(
         &self,
         table: &mut TrainingTable,
-        world: Option<&str>,
+        world: &(dyn Fn(&str) -> String + Sync),
         recording: &Recording,
         truth: TrainingTruth,
     ) -> Result<Vec<NotUsed>, DataError> {
@@ -66,7 +66,7 @@ impl TrainingGatherer<'_> {
         let mut not_used = Vec::new();
         self.gather(recording, &tasks, |task, gathered| {
             let name = &task.reader.sequence().name;
-            let number = table.world(world.unwrap_or(name));
+            let number = table.world(&world(name));
             let mut of_sequence = NotUsed::of(name);
             append(table, number, gathered, &mut of_sequence);
             not_used.extend(Some(of_sequence).filter(|found| !found.is_nothing()));
@@ -196,7 +196,7 @@ impl<'a> Task<'a> {
         Ok(Ok((parts, frame.unreadable)))
     }
 
-    /// What is observed of the detections whose truth is known.
+    /// What is observed of the detections whose truth is known, and of the others where they are asked for.
     fn part(&self, frame: &Frame, view: View, truth: &[True]) -> Part {
         let config = self.gatherer.config;
         let labels = self.labeler.label(frame);
@@ -205,22 +205,24 @@ impl<'a> Task<'a> {
         for (place, column) in columns.iter().enumerate() {
             rows.set_column(place, &column.values);
         }
+        let gathers_unsaid = self.gatherer.unsaid && truth.iter().any(|truth| truth.plausible.is_some());
         let (mut kept, mut known) = (Vec::new(), Vec::new());
         for (row, (truth, label)) in truth.iter().zip(&labels).enumerate() {
             // A detection without a place has no evidence.
-            let (Some(plausible), Some(detection)) = (truth.plausible, &frame.scan.detections[row]) else {
+            let Some(detection) = &frame.scan.detections[row] else { continue };
+            if truth.plausible.is_none() && !gathers_unsaid {
                 continue;
-            };
+            }
             kept.push(row);
             known.push(Known {
                 world: 0,
                 scan: 0,
                 view,
-                plausible,
+                said: truth.plausible.is_some(),
+                plausible: truth.plausible.unwrap_or(false),
                 cause: truth.cause,
                 paper: label.w as f32,
                 paper_label: label.plausible,
-                weight: self.gatherer.weight,
                 place: detection.place(),
             });
         }

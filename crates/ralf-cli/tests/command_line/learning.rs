@@ -1,7 +1,9 @@
 //! `ralf learn`, and labels by what it writes.
 
 use crate::support::{Dataset, Ran, program, ralf, schema, without_timings};
+use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
 use std::fs;
+use std::path::Path;
 
 /// Two simulated recordings.
 fn simulated(dataset: &Dataset) -> [String; 2] {
@@ -82,6 +84,58 @@ fn worlds_are_simulated_on_the_way_and_each_family_is_one() {
     assert!(text.contains(&told), "{:?}", text.lines().nth(2));
     assert!(text.contains(" --leaves 4 --no-neighbours --seed 0\n") && !text.contains("\nnet "));
     assert_eq!(text.lines().filter(|line| line.starts_with("world ")).count(), 3);
+}
+
+/// A recording whose truth is known, labelled by the shipped model; somebody spoke of 40 detections of two scans.
+fn reviewed(dataset: &Dataset) -> [String; 2] {
+    let [town, _] = simulated(dataset);
+    let out = dataset.beside("reviewed");
+    ralf(["label", &town, "-o", &out, "--method", "learned", "--no-check", "-q"]).exits(0);
+    let mut store = Store::open(&Path::new(&out).join(FILE)).unwrap();
+    for (scan, label) in [(0, 40), (2, 99)] {
+        let labels = fs::metadata(format!("{out}/sequences/tiny/radar_front/{scan:06}.label")).unwrap().len();
+        let points = (0..20).collect();
+        let radar = "radar_front".to_owned();
+        let edit = ScanEdit { radar, scan, detections: labels as u32 / 4, points, ..ScanEdit::default() };
+        let stroke = Stroke { label: Some(label), scans: vec![edit], ..Stroke::of_sequence("tiny") };
+        store.apply(&stroke, &Who::named("ada")).unwrap();
+    }
+    [town, out]
+}
+
+#[test]
+fn a_model_is_corrected_by_what_people_said_and_not_by_what_else_is_known() {
+    let dataset = Dataset::new();
+    let [town, out] = reviewed(&dataset);
+    let said = |options: &[&str], model: &str| {
+        let ran = program().args(["learn", &town, "-o", model]).args(options).output().unwrap();
+        Ran::of(&ran).exits(0).prints(["tiny", "before", "after"]);
+        let text = fs::read_to_string(model).unwrap();
+        let line = text.lines().find(|line| line.starts_with("corrected ")).unwrap();
+        line.split(' ').nth(1).unwrap().parse::<usize>().unwrap()
+    };
+    let [own, again, both, known] =
+        ["own", "again", "both", "known"].map(|name| dataset.beside(&format!("{name}.txt")));
+    assert_eq!(said(&["--from", &out, "--jobs", "1"], &own), 40);
+    assert_eq!(said(&["--from", &out, "--jobs", "3"], &again), 40);
+    assert!(fs::read(&own).unwrap() == fs::read(&again).unwrap());
+    let all = said(&["--correct"], &known);
+    assert!(all > 400 && said(&["--from", &out, "--correct"], &both) == all);
+    assert!(fs::read_to_string(&both).unwrap().contains(" --correct --rounds 40 --leaves 12 --seed 0\n"));
+    let labelled = ralf(["label", &town, "-o", &out, "--method", "learned", "--model", &own, "--no-check"]);
+    labelled.exits(0).says(["other"]);
+    ralf(["evaluate", &out, "--truth", &town]).exits(0);
+    // What it learned would be learned twice, or lost.
+    let model = |model: &str, output: &str| {
+        ralf(["learn", &town, "--from", &out, "--model", model, "-o", output, "-q"])
+    };
+    model(&own, &again).exits(1).ends_with_error(["before it was corrected", "`ralf learn "]);
+    model(&own, &own).exits(2).ends_with_error(["--output", "--model"]);
+    ralf(["learn", &town, &town, "--model", &own, "-o", &again])
+        .exits(2)
+        .ends_with_error(["--from", "--correct"]);
+    ralf(["learn", &town, "--from", &out, "--preset", "worlds", "-o", &again]).exits(2);
+    ralf(["learn", "--correct", "-o", &again]).exits(2);
 }
 
 #[test]

@@ -168,12 +168,9 @@ struct Observed {
 /// What a model makes of the detections of a scan, log odds; of those without a place its trees alone.
 fn log_odds(model: &Model, rows: &Rows, places: &[(usize, [f32; 3])]) -> Vec<f64> {
     let mut log_odds = model.plausible.log_odds(rows);
-    if let Some(net) = &model.net {
-        let (of, places): (Vec<usize>, Vec<[f32; 3]>) = places.iter().copied().unzip();
-        let trees: Vec<f64> = of.iter().map(|row| log_odds[*row]).collect();
-        let heard = net.heard(&trees, &rows.pick(of.iter().copied()), &places);
-        of.into_iter().zip(heard).for_each(|(row, heard)| log_odds[row] += heard);
-    }
+    let (of, places): (Vec<usize>, Vec<[f32; 3]>) = places.iter().copied().unzip();
+    let placed = model.log_odds(&rows.pick(of.iter().copied()), &places);
+    of.into_iter().zip(placed).for_each(|(row, placed)| log_odds[row] = placed);
     log_odds
 }
 

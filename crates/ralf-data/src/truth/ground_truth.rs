@@ -51,6 +51,15 @@ impl GroundTruth {
         Self::gather(dataset, Some(corrections))
     }
 
+    /// What people corrected and accepted in a review of a dataset, whatever else is known of it; `None` where they
+    /// said nothing.
+    pub fn of_corrections(dataset: &Path, corrections: Corrections) -> Option<Self> {
+        let (dataset, files) = (dataset.to_owned(), BTreeSet::new());
+        let scans = corrections.scans().cloned().collect();
+        let found = Self { dataset, scans, files, known: None, corrections: Some(corrections) };
+        (!found.scans.is_empty()).then_some(found)
+    }
+
     fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
         let known = KnownTruth::find(dataset)?;
         let files = match &known {

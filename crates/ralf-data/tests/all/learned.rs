@@ -22,10 +22,11 @@ fn recording(seed: u64) -> Recording {
 fn table(jobs: usize) -> TrainingTable {
     let config = Config::default();
     let gatherer =
-        TrainingGatherer { config: &config, seed: 1, weight: 1.0, every: 1, jobs, observer: &Unwatched };
+        TrainingGatherer { config: &config, seed: 1, unsaid: false, every: 1, jobs, observer: &Unwatched };
     let mut table = gatherer.table();
     for (world, seed) in [("one", 1), ("two", 2)] {
-        let left_out = gatherer.add(&mut table, Some(world), &recording(seed), TrainingTruth::Known).unwrap();
+        let left_out =
+            gatherer.add(&mut table, &|_| world.to_owned(), &recording(seed), TrainingTruth::Known).unwrap();
         assert!(left_out.is_empty());
     }
     table

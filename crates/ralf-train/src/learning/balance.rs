@@ -48,7 +48,7 @@ pub(super) fn weights(table: &TrainingTable) -> Vec<f32> {
             if known.plausible { plausible } else { 1.0 - plausible }
         };
         let weight = share(&worlds[world]) / share(&cells[world][cell_of(row)]);
-        weights.push(known.weight * weight.min(MOST) as f32);
+        weights.push(weight.min(MOST) as f32);
     }
     weights
 }

@@ -26,7 +26,7 @@ pub(super) fn cause_forests(
     let count =
         |cause: &Cause| train.iter().filter(|row| table.known[**row as usize].cause == *cause as u8).count();
     let causes: Vec<Cause> = Cause::ALL.into_iter().skip(1).filter(|cause| count(cause) >= FEWEST).collect();
-    let weights: Vec<f32> = table.known.iter().map(|known| known.weight).collect();
+    let weights = vec![1.0; table.len()];
     let either_way = vec![0; table.features.len()];
     let parameters = Parameters {
         rounds: fitting.parameters.rounds.div_ceil(PARTS[0]),
@@ -35,7 +35,8 @@ pub(super) fn cause_forests(
     };
     let Ok(forests) = side_by_side(&causes, fitting.jobs, |cause| {
         let target: Vec<bool> = table.known.iter().map(|known| known.cause == *cause as u8).collect();
-        let examples = Examples { rows, bins, target: &target, weights: &weights, monotone: &either_way };
+        let (target, weights, monotone) = (&target, &weights, &either_way);
+        let examples = Examples { rows, bins, target, weights, monotone, begin: None };
         let forest = boost(&examples, &train, &parameters).forest;
         Ok::<_, Infallible>(CauseForest { name: cause.name().to_owned(), forest })
     });

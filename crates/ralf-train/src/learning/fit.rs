@@ -12,7 +12,7 @@ use super::monotone::direction;
 use super::net::{Scans, fit_net};
 use super::table::{Known, TrainingTable};
 use ralf::learned::net::Net;
-use ralf::learned::{Input, Model, Origin, Rows, Seen};
+use ralf::learned::{Input, Model, Origin, Rows, Seen, UseError};
 use ralf_jobs::side_by_side;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -46,6 +46,15 @@ pub enum LearnError {
     /// A model of nothing says the same of everything.
     #[error("expected evidence that was observed of some detection, found none in the groups to learn from")]
     NothingObserved,
+    /// Nothing is learned where nobody spoke.
+    #[error("expected detections of which somebody said whether they are plausible, found none")]
+    NothingSaid,
+    /// What such a model knows would be learned twice, and judged by what it heard.
+    #[error("expected a model as it was before it was corrected, found one that knows corrections already")]
+    AlreadyCorrected,
+    /// A model that reads what is not observed.
+    #[error(transparent)]
+    Use(#[from] UseError),
 }
 
 /// The share of scans that lack a group of evidence, for a net: as many as for trees, in the mean.
@@ -104,6 +113,7 @@ pub fn fit(
         net,
         calibration: everywhere,
         causes,
+        corrected: None,
     };
     Ok(Fitted { model, left_out })
 }
@@ -148,6 +158,7 @@ impl<'a> Ground<'a> {
             target: &self.target,
             weights: &self.weights,
             monotone: &self.monotone,
+            begin: None,
         };
         boost(&examples, &train, &fitting.parameters)
     }

@@ -7,17 +7,19 @@
 //! 3. [`boost`] grows a forest; where it is asked for, a net that hears of the detections around is fitted beside it
 //!    ([`NetParameters`]).
 //!
+//! [`correct`] adds to a model what it gets wrong in recordings that somebody corrected.
+//!
 //! [`second_opinion`] learns within a sequence, from what a person said of some of its detections.
 //!
 //! The same table and seed give the same model to the byte.
 
 mod asked;
 mod balance;
-mod before;
 mod blanking;
 mod boosting;
 mod calibrate;
 mod causes;
+mod correcting;
 mod fit;
 mod fitting;
 mod judge;
@@ -32,8 +34,8 @@ mod table;
 mod testing;
 mod view;
 
-pub use before::worth_in;
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
+pub use correcting::{CorrectedModel, Correcting, Judged, LEFT_ALONE, correct};
 pub use fit::{Fitted, LearnError, fit};
 pub use fitting::Fitting;
 pub use judge::LeftOut;

@@ -42,7 +42,8 @@ pub fn second_opinion(rows: &Rows, monotone: &[i8], believed: &[Believed], jobs:
     let bins = Bins::new(rows);
     let target: Vec<bool> = believed.iter().map(|one| one.plausible).collect();
     let weights: Vec<f32> = believed.iter().map(weight).collect();
-    let examples = Examples { rows, bins: &bins, target: &target, weights: &weights, monotone };
+    let (bins, target, weights) = (&bins, &target, &weights);
+    let examples = Examples { rows, bins, target, weights, monotone, begin: None };
     let groups: Vec<u32> = (0..GROUPS).collect();
     let Ok(opinions) = side_by_side(&groups, jobs, |group| {
         let (mut train, mut asked) = (Vec::new(), Vec::new());

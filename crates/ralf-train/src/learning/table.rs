@@ -27,7 +27,9 @@ pub struct Known {
     pub scan: u32,
     /// How much of the scan's surroundings could be observed.
     pub view: View,
-    /// Whether it is truly plausible.
+    /// Whether somebody knows what it is; what nobody knows is only heard of by those around it.
+    pub said: bool,
+    /// Whether it is truly plausible; of no meaning where nobody knows.
     pub plausible: bool,
     /// Why it is an artifact, as a number of [`Cause`](ralf::label::Cause); 0 where it is none or nobody knows.
     pub cause: u8,
@@ -35,8 +37,6 @@ pub struct Known {
     pub paper: f32,
     /// Whether the paper's method calls it plausible.
     pub paper_label: bool,
-    /// How much it counts; above 0.
-    pub weight: f32,
     /// Where it lies in the vehicle frame at the scan's time, m.
     pub place: [f32; 3],
 }

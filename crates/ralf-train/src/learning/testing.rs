@@ -27,11 +27,11 @@ pub(super) fn table(scans: u32, detections: usize) -> TrainingTable {
                 world,
                 scan,
                 view: View::Whole,
+                said: true,
                 plausible,
                 cause,
                 paper: random.random(),
                 paper_label: random.random(),
-                weight: 1.0,
                 place: [row as f32, (row * row % 7) as f32, 0.0],
             });
         }

@@ -27,6 +27,8 @@ pub struct LearnedLabeler<'a> {
     telling: Telling,
     weighing: Weighing,
     plausible: Inference,
+    /// What corrections add, where the model learned any.
+    corrected: Option<Inference>,
     /// One for each of the model's causes.
     causes: Vec<Inference>,
     /// `None` where reasons are not wanted.
@@ -86,7 +88,7 @@ impl<'a> LearnedLabeler<'a> {
         let inputs: Vec<&'static Feature> = model.places()?.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
         let explain = config.learned.reasons;
-        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of)).transpose()?;
+        let explainer = explain.then(|| Explainer::new(&model.trees(), &group_of)).transpose()?;
         let seen: Vec<Seen> = model.inputs.iter().map(|input| input.seen).collect();
         let telling = Telling::new(&inputs, &group_of, &seen);
         let weighing = Weighing::new(model, inputs.iter().map(|input| input.name), &config.learned);
@@ -99,6 +101,7 @@ impl<'a> LearnedLabeler<'a> {
             telling,
             weighing,
             plausible: Inference::new(&model.plausible),
+            corrected: model.corrected.as_ref().map(|corrected| Inference::new(&corrected.forest)),
             causes: model.causes.iter().map(|cause| Inference::new(&cause.forest)).collect(),
             explainer,
         })
@@ -128,13 +131,13 @@ impl<'a> LearnedLabeler<'a> {
         }
         let rows = rows.pick(asked.iter().copied());
         let blocks = Blocks::of(&rows);
-        let log_odds = self.plausible.log_odds(&blocks);
+        let mut log_odds = self.plausible.log_odds(&blocks);
         let heard = self.model.net.as_ref().map(|net| net.heard(&log_odds, &rows, &places(frame, &asked)));
-        let of_both: Vec<f64> = match &heard {
-            Some(heard) => log_odds.iter().zip(heard).map(|(trees, heard)| trees + heard).collect(),
-            None => log_odds,
-        };
-        for (at, w) in self.weighing.plausibilities(&rows, &of_both).into_iter().enumerate() {
+        let corrected = self.corrected.as_ref().map(|corrected| corrected.log_odds(&blocks));
+        for added in heard.iter().chain(&corrected) {
+            log_odds.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
+        }
+        for (at, w) in self.weighing.plausibilities(&rows, &log_odds).into_iter().enumerate() {
             let label = &mut labels[asked[at]];
             label.w = w;
             label.plausible = label.w >= self.config.fusion.threshold;

@@ -33,7 +33,7 @@ pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
 pub use forest::{Forest, Inference, probability};
 pub use labeler::{Answer, LearnedLabeler, LearnedScan, ToldCause, UNCLEAR};
-pub use model::{CauseForest, Input, Model, Origin, UseError, World};
+pub use model::{CauseForest, Corrected, Input, Model, Origin, UseError, World};
 pub use reason::NEIGHBOURS;
 pub use rows::Rows;
 pub use shapley::Explainer;

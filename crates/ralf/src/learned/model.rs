@@ -4,6 +4,7 @@ use super::calibration::Calibration;
 use super::familiar::Seen;
 use super::forest::Forest;
 use super::net::Net;
+use super::rows::Rows;
 use crate::config::ConfigError;
 use crate::evidence::features;
 use thiserror::Error;
@@ -27,6 +28,17 @@ pub struct Model {
     pub calibration: Calibration,
     /// Log odds of each cause, of artifacts.
     pub causes: Vec<CauseForest>,
+    /// What somebody's own corrections say against it; `None` where it learned none.
+    pub corrected: Option<Corrected>,
+}
+
+/// What a model learned from corrections of recordings that it was not trained in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corrected {
+    /// What is added to the log odds of trees and net.
+    pub forest: Forest,
+    /// The corrected sequences, and how well models labelled each that knew the corrections of others alone.
+    pub worlds: Vec<World>,
 }
 
 /// Where a model comes from.
@@ -117,6 +129,31 @@ impl Model {
         self.places().map(drop)
     }
 
+    /// The log odds that each of a scan's detections is plausible, by all that the model has: `rows` are what it reads
+    /// of them, and `places` where they lie in the vehicle frame, m.
+    pub fn log_odds(&self, rows: &Rows, places: &[[f32; 3]]) -> Vec<f64> {
+        let mut log_odds = self.plausible.log_odds(rows);
+        if let Some(net) = &self.net {
+            let heard = net.heard(&log_odds, rows, places);
+            log_odds.iter_mut().zip(heard).for_each(|(sum, heard)| *sum += heard);
+        }
+        if let Some(corrected) = &self.corrected {
+            let added = corrected.forest.log_odds(rows);
+            log_odds.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
+        }
+        log_odds
+    }
+
+    /// All trees whose answers are added to the log odds, as one forest.
+    pub(super) fn trees(&self) -> Forest {
+        let mut all = self.plausible.clone();
+        if let Some(Corrected { forest, .. }) = &self.corrected {
+            all.base += forest.base;
+            all.trees.extend(forest.trees.iter().cloned());
+        }
+        all
+    }
+
     /// The share of detections that is plausible where it was trained, in [0, 1]: the mean of its worlds, which count
     /// alike in its calibration; 0 where it names none.
     pub fn share(&self) -> f64 {
@@ -137,7 +174,9 @@ impl Model {
         if known == 0 {
             return Err(UseError::NoInputs);
         }
-        for forest in self.causes.iter().map(|cause| &cause.forest).chain([&self.plausible]) {
+        let of_corrections = self.corrected.iter().map(|corrected| &corrected.forest);
+        let of_causes = self.causes.iter().map(|cause| &cause.forest);
+        for forest in of_causes.chain(of_corrections).chain([&self.plausible]) {
             let width = forest.width();
             if width > known {
                 return Err(UseError::NoSuchFeature { asked: width - 1, known });

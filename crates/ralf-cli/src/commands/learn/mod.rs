@@ -1,11 +1,10 @@
 //! `ralf learn`: a model from recordings whose truth is known.
 
-mod own;
+mod correct;
 mod text;
 mod worlds;
 
 use crate::arguments::{SettingsArgs, check_model, threads};
-use crate::corrections::merged_truth;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
 use crate::run_summary::{say_not_used, say_without};
@@ -13,11 +12,15 @@ use crate::text::{print, shell_path, shell_word};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use correct::CorrectArgs;
 use ralf::config::Config;
 use ralf::evidence::GROUPS;
-use ralf::learned::{Origin, Tree};
+use ralf::learned::{Model, Origin, Tree};
 use ralf_data::{GroundTruth, Recording, Settings, TrainingGatherer, TrainingTruth, write_named};
-use ralf_train::learning::{Fitting, NetParameters, Parameters, TrainingTable, fit};
+use ralf_train::learning::{
+    CorrectedModel, Correcting, Fitting, NetParameters, Parameters, TrainingTable, correct as correct_model,
+    fit,
+};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
@@ -37,12 +40,17 @@ evidence of detections whose truth is known (docs/learned.md). Recordings of one
 DATASET every sequence is one. A model is judged in each world by one that was fitted to all the others, and that is \
 what is printed and stands in the model's file. The same recordings, settings and seed give the same file.
 
+With --from or --correct no model is fitted anew: the shipped one, or --model, learns what it gets wrong, in seconds. \
+What people left alone in a scan that they corrected counts a little, too, as the model has it. Each sequence is \
+judged before, and after by corrections of the others alone.
+
 Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
   ralf learn --preset worlds -o model.txt              simulated on the way, eight of each family
   ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
   ralf learn --preset worlds --no-neighbours -o trees.txt   trees alone: a third less to ask
-  ralf learn recordings/city --from out -o own.txt     worlds, and what people corrected in the review of out
+  ralf learn recordings/city --from out -o own.txt     the shipped model, corrected by the review of out
+  ralf learn recordings/city --correct -o own.txt      the same by the labels in the recording itself
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
     /// Recordings with corrected labels; each is a world
@@ -51,20 +59,16 @@ pub(crate) struct LearnArgs {
     /// The model's file
     #[arg(short, long = "output", visible_alias = "out", value_name = "MODEL")]
     output: PathBuf,
-    /// Learn the corrections of a review in OUT, too, beside worlds as of `--preset worlds`; every DATASET is one that
-    /// was reviewed there, and each of its sequences a world
-    #[arg(long, value_name = "OUT", requires = "datasets")]
-    from: Option<PathBuf>,
+    #[command(flatten)]
+    correct: CorrectArgs,
     #[command(flatten)]
     worlds: WorldArgs,
-    /// Trees
-    #[arg(long, value_name = "N", default_value_t = Parameters::default().rounds as u32,
-        value_parser = clap::value_parser!(u32).range(1..=MOST_ROUNDS))]
-    rounds: u32,
-    /// Most leaves of a tree
-    #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves as u32,
-        value_parser = clap::value_parser!(u32).range(2..=Tree::MOST_LEAVES as i64))]
-    leaves: u32,
+    /// Trees; 64 if not given, 40 where a model is corrected
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_ROUNDS))]
+    rounds: Option<u32>,
+    /// Most leaves of a tree; 63 if not given, 12 where a model is corrected
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=Tree::MOST_LEAVES as i64))]
+    leaves: Option<u32>,
     /// Trees alone, without the net that hears of the detections around each one: quicker to learn and to ask
     #[arg(long)]
     no_neighbours: bool,
@@ -88,39 +92,39 @@ pub(crate) struct LearnArgs {
     json: bool,
 }
 
-/// Gathers, fits, writes and prints what the model is worth.
+/// Gathers, fits or corrects, writes and prints what the model is worth.
 pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let read_only: Vec<&Path> =
-        arguments.datasets.iter().chain(&arguments.from).map(PathBuf::as_path).collect();
+        arguments.datasets.iter().chain(&arguments.correct.from).map(PathBuf::as_path).collect();
     check_model("--output", &arguments.output, &read_only)?;
     let settings = arguments.settings.resolve()?;
     arguments.check(&settings)?;
+    let begin = arguments.correct.model(&arguments.output)?;
     let stages = Stages::default();
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
-    let every = arguments.worlds.every();
-    let gatherer = TrainingGatherer { config, seed, weight: 1.0, every, jobs, observer: &stages };
+    let (every, unsaid) = (arguments.worlds.every(), begin.is_some());
+    let gatherer = TrainingGatherer { config, seed, unsaid, every, jobs, observer: &stages };
     let mut table = gatherer.table();
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
-    let own = 0..table.worlds.len() as u16;
-    if arguments.from.is_some() || arguments.worlds.are_asked() {
+    if arguments.worlds.are_asked() {
         outcome = outcome.and(arguments.worlds.gather(&gatherer, &stages, &mut table)?);
     }
-    let table = table.without_groups(&arguments.without_groups);
-    let fitting = arguments.fitting(config, jobs);
-    let progress = Progress::of_steps(0, "fitting");
-    let fitted =
-        fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
-    drop(progress);
-    let before = if arguments.from.is_some() { own::before(&table, own, config)? } else { Vec::new() };
+    let learned = match &begin {
+        Some(begin) => arguments.correct(begin, &table, config, jobs)?,
+        None => arguments.fit(&table.without_groups(&arguments.without_groups), config, jobs)?,
+    };
     // First what it is worth: a disk that has become full takes no more than the file.
-    let printed = print(&if arguments.json {
-        text::json(&fitted, &before)?
-    } else {
-        text::page(&fitted) + &own::told(&before)
-    });
-    write_named(&arguments.output, fitted.model.to_text().as_bytes())?;
+    let printed = print(if arguments.json { &learned.json } else { &learned.page });
+    write_named(&arguments.output, learned.model.to_text().as_bytes())?;
     printed.map(|()| outcome)
+}
+
+/// A model, and what it is worth.
+struct Learned {
+    model: Model,
+    page: String,
+    json: String,
 }
 
 impl LearnArgs {
@@ -140,14 +144,10 @@ impl LearnArgs {
         Ok(())
     }
 
-    fn fitting(&self, config: &Config, jobs: usize) -> Fitting {
-        Fitting {
-            parameters: Parameters {
-                rounds: self.rounds as usize,
-                leaves: self.leaves as usize,
-                seed: self.seed,
-                ..Parameters::default()
-            },
+    /// A new model.
+    fn fit(&self, table: &TrainingTable, config: &Config, jobs: usize) -> anyhow::Result<Learned> {
+        let fitting = Fitting {
+            parameters: self.trees(Parameters::default()),
             expects: self.expects(),
             net: (!self.no_neighbours).then(NetParameters::default),
             blanking: !self.no_blanking,
@@ -155,6 +155,43 @@ impl LearnArgs {
             threshold: config.fusion.threshold,
             learned: config.learned.clone(),
             jobs,
+        };
+        let progress = Progress::of_steps(0, "fitting");
+        let reached = |done, of| progress.reached_of(done as u64, of as u64);
+        let fitted = fit(table, &fitting, self.origin(&fitting.parameters), &reached)?;
+        drop(progress);
+        Ok(Learned { page: text::page(&fitted), json: text::json(&fitted)?, model: fitted.model })
+    }
+
+    /// A model that knows more.
+    fn correct(
+        &self,
+        begin: &Model,
+        table: &TrainingTable,
+        config: &Config,
+        jobs: usize,
+    ) -> anyhow::Result<Learned> {
+        let correcting = Correcting {
+            parameters: self.trees(Correcting::trees()),
+            threshold: config.fusion.threshold,
+            learned: config.learned.clone(),
+            jobs,
+        };
+        let progress = Progress::of_steps(0, "correcting");
+        let reached = |done, of| progress.reached_of(done as u64, of as u64);
+        let origin = self.origin(&correcting.parameters);
+        let CorrectedModel { model, judged } = correct_model(begin, table, &correcting, origin, &reached)?;
+        drop(progress);
+        Ok(Learned { page: text::corrected_page(&judged), json: text::corrected_json(&judged)?, model })
+    }
+
+    /// Trees as they are where nobody asks for others.
+    fn trees(&self, usual: Parameters) -> Parameters {
+        Parameters {
+            rounds: self.rounds.map_or(usual.rounds, |rounds| rounds as usize),
+            leaves: self.leaves.map_or(usual.leaves, |leaves| leaves as usize),
+            seed: self.seed,
+            ..usual
         }
     }
 
@@ -173,26 +210,28 @@ impl LearnArgs {
         let mut outcome = Outcome::Done;
         for dataset in &self.datasets {
             let recording = settings.correct(ralf_data::open_with(dataset, None, &settings.topics)?)?;
-            let from = self.from.as_deref();
-            let (truth, all_applied) = merged_truth(&recording.path, Some(&recording), from, from.is_some())?;
-            let gatherer = &TrainingGatherer { weight: own::weight(from), ..*gatherer };
+            let (truth, all_applied) = self.correct.truth(&recording)?;
             let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
             let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
             let name = name.with_context(|| dataset.display().to_string())?;
-            let one_world = from.is_none() && (self.datasets.len() > 1 || self.worlds.are_asked());
-            let world = one_world.then_some(name.as_str());
-            let not_used = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
+            let is_one_of_several = self.datasets.len() > 1 || self.worlds.are_asked();
+            let world = |sequence: &str| match (is_one_of_several, self.correct.is_asked()) {
+                (false, _) => sequence.to_owned(),
+                (true, false) => name.clone(),
+                (true, true) => format!("{name}/{sequence}"),
+            };
+            let not_used = gatherer.add(table, &world, &recording, TrainingTruth::Said(&truth))?;
             outcome = not_used.iter().map(say_not_used).fold(outcome.and(all_applied), Outcome::and);
             // Of what people corrected, most sequences may say nothing.
-            if from.is_none() {
+            if self.correct.from.is_none() {
                 name_without_truth(&recording, &truth);
             }
         }
         Ok(outcome)
     }
 
-    /// Where the model comes from: the command without what doesn't change it.
-    fn origin(&self) -> Origin {
+    /// Where the model comes from: the command without what doesn't change it, with what its trees are like.
+    fn origin(&self, Parameters { rounds, leaves, .. }: &Parameters) -> Origin {
         let datasets: String =
             self.datasets.iter().map(|dataset| format!(" {}", shell_path(dataset))).collect();
         let neighbours = if self.no_neighbours { " --no-neighbours" } else { "" };
@@ -202,12 +241,10 @@ impl LearnArgs {
             .map(|group| format!(" --without-group {}", shell_word(group)))
             .collect();
         without += if self.no_blanking { " --no-blanking" } else { "" };
-        let from: String = self.from.iter().map(|out| format!(" --from {}", shell_path(out))).collect();
         let command = format!(
-            "ralf learn{datasets}{from}{} --rounds {} --leaves {}{neighbours}{without} --seed {}{}",
-            self.worlds.told(self.from.is_some()),
-            self.rounds,
-            self.leaves,
+            "ralf learn{datasets}{}{} --rounds {rounds} --leaves {leaves}{neighbours}{without} --seed {}{}",
+            self.correct.told(),
+            self.worlds.told(),
             self.seed,
             self.settings.told(),
         );

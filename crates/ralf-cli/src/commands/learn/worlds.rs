@@ -45,9 +45,9 @@ impl WorldArgs {
         self.preset.is_some()
     }
 
-    /// As they were typed, where they are asked or needed.
-    pub(super) fn told(&self, needed: bool) -> String {
-        if !needed && !self.are_asked() {
+    /// As they were typed, where they are asked.
+    pub(super) fn told(&self) -> String {
+        if !self.are_asked() {
             return String::new();
         }
         let without = if self.without.is_empty() {
@@ -80,7 +80,7 @@ impl WorldArgs {
                 let world = kind * self.seeds + seed + 1;
                 stages.name_recording(&format!("world {world} of {all}"));
                 let recording = self.recording(worlds, seed)?;
-                let not_used = gatherer.add(table, Some(name), &recording, TrainingTruth::Known)?;
+                let not_used = gatherer.add(table, &|_| name.to_owned(), &recording, TrainingTruth::Known)?;
                 outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
             }
         }

@@ -67,6 +67,8 @@ pub struct Examples<'a> {
     pub weights: &'a [f32],
     /// By feature: 1 where more of it never makes the answer fall, -1 where it never makes it rise, else 0.
     pub monotone: &'a [i8],
+    /// The log odds of each row to which trees are added; `None`: those of a row of which nothing is known.
+    pub begin: Option<&'a [f64]>,
 }
 
 /// A forest, and what each feature's questions gained.
@@ -80,10 +82,12 @@ pub struct Grown {
 
 /// Grows a forest on some rows, whose places rise.
 pub fn boost(examples: &Examples, train: &[u32], parameters: &Parameters) -> Grown {
-    let mut forest = Forest { base: base(examples, train), trees: Vec::with_capacity(parameters.rounds) };
+    let base = if examples.begin.is_some() { 0.0 } else { base(examples, train) };
+    let mut forest = Forest { base, trees: Vec::with_capacity(parameters.rounds) };
     let mut gains = vec![0.0; examples.rows.width()];
     let mut random = Pcg64Mcg::seed_from_u64(parameters.seed);
-    let mut scores = vec![forest.base; train.len()];
+    let begin = |row: &u32| examples.begin.map_or(base, |begin| begin[*row as usize]);
+    let mut scores: Vec<f64> = train.iter().map(begin).collect();
     let mut gradients = Gradients::new(examples.rows.len());
     let mut growth = Growth::new(examples, parameters);
     for _ in 0..parameters.rounds {

@@ -23,7 +23,8 @@ fn small() -> Parameters {
 
 fn grown(rows: &Rows, target: &[bool], monotone: &[i8], parameters: &Parameters) -> Grown {
     let (bins, weights) = (Bins::new(rows), vec![1.0; rows.len()]);
-    let examples = Examples { rows, bins: &bins, target, weights: &weights, monotone };
+    let (bins, weights) = (&bins, &weights);
+    let examples = Examples { rows, bins, target, weights, monotone, begin: None };
     boost(&examples, &Vec::from_iter(0..rows.len() as u32), parameters)
 }
 
@@ -110,8 +111,14 @@ fn rows_that_are_not_trained_on_change_nothing_and_a_seed_repeats_itself() {
     let (rows, target) = table(1000, 4, 6);
     let bins = Bins::new(&rows);
     let weights = vec![1.0; rows.len()];
-    let examples =
-        Examples { rows: &rows, bins: &bins, target: &target, weights: &weights, monotone: &[0; 4] };
+    let examples = Examples {
+        rows: &rows,
+        bins: &bins,
+        target: &target,
+        weights: &weights,
+        monotone: &[0; 4],
+        begin: None,
+    };
     let train: Vec<u32> = (0..600).collect();
     let parameters = Parameters { rounds: 20, ..small() };
     let first = boost(&examples, &train, &parameters);

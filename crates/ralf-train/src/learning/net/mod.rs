@@ -74,13 +74,12 @@ pub(super) fn fit_net(
 
 /// How far each log odds is from the truth: the derivative of the mean logistic loss of a batch.
 fn wrong(batch: &Batch, log_odds: &[f32]) -> Vec<f32> {
-    let all: f32 = batch.weights.iter().sum();
-    let truth = batch.plausible.iter().zip(&batch.weights);
-    let one = |(log_odds, (plausible, weight)): (&f32, (&bool, &f32))| {
+    let all = batch.plausible.len() as f32;
+    let one = |(log_odds, plausible): (&f32, &bool)| {
         let target = if *plausible { 1.0 } else { 0.0 };
-        (probability(f64::from(*log_odds)) as f32 - target) * weight / all
+        (probability(f64::from(*log_odds)) as f32 - target) / all
     };
-    log_odds.iter().zip(truth).map(one).collect()
+    log_odds.iter().zip(&batch.plausible).map(one).collect()
 }
 
 /// How fast the weights go in a step, of the fastest: faster in the first tenth, then slower (half a cosine).

@@ -23,7 +23,6 @@ pub(super) struct Batch {
     pub(super) rows: Rows,
     pub(super) around: Around,
     pub(super) plausible: Vec<bool>,
-    pub(super) weights: Vec<f32>,
 }
 
 impl<'a> Scans<'a> {
@@ -57,7 +56,6 @@ impl<'a> Scans<'a> {
             rows: Rows::absent(0, self.table.features.len()),
             around: Around::default(),
             plausible: Vec::new(),
-            weights: Vec::new(),
         };
         let mut around = Vec::new();
         while batch.plausible.len() < rows && !filled.is_empty() {
@@ -68,7 +66,6 @@ impl<'a> Scans<'a> {
             let known = &self.table.known[scan.clone()];
             around.push(Around::of(&places(known), nearest));
             batch.plausible.extend(known.iter().map(|known| known.plausible));
-            batch.weights.extend(known.iter().map(|known| known.weight));
         }
         batch.around = Around::joined(&around, nearest);
         batch

@@ -60,7 +60,7 @@ mod tests {
     use super::super::calibration::Calibration;
     use super::super::familiar::Seen;
     use super::super::forest::Forest;
-    use super::super::model::{CauseForest, Input, Origin, World};
+    use super::super::model::{CauseForest, Corrected, Input, Origin, World};
     use super::super::net::tests::net;
     use super::super::tree::Tree;
     use super::super::tree::tests::{leaf, split};
@@ -79,7 +79,7 @@ mod tests {
                 program: "0.1.0 abc".to_owned(),
                 command: "ralf learn a b".to_owned(),
                 seed: u64::MAX,
-                worlds: vec![world],
+                worlds: vec![world.clone()],
             },
             expects: Some(0.25),
             inputs: vec![input("lidar_residual_horizontal"), input("lidar_residual_vertical")],
@@ -91,15 +91,20 @@ mod tests {
             calibration: Calibration::new(vec![(-2.5, 0.01), (0.1, 0.7)]).unwrap(),
             causes: vec![CauseForest {
                 name: "side lobe".to_owned(),
-                forest: Forest { base: 0.5, trees: vec![tree] },
+                forest: Forest { base: 0.5, trees: vec![tree.clone()] },
             }],
+            corrected: Some(Corrected {
+                forest: Forest { base: 0.0, trees: vec![tree.clone(), tree] },
+                worlds: vec![World { name: "my street".to_owned(), ..world }],
+            }),
         }
     }
 
     #[test]
     fn what_is_written_is_read_back_to_the_bit() {
         assert_eq!(Model::from_text(&model().to_text()), Ok(model()));
-        let bare = Model { causes: vec![], net: None, expects: None, origin: Origin::default(), ..model() };
+        let origin = Origin::default();
+        let bare = Model { causes: vec![], net: None, expects: None, corrected: None, origin, ..model() };
         assert_eq!(Model::from_text(&bare.to_text()), Ok(bare));
         assert_eq!(model().check(), Ok(()));
     }

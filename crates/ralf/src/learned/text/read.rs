@@ -3,7 +3,7 @@
 use super::super::calibration::Calibration;
 use super::super::familiar::Seen;
 use super::super::forest::Forest;
-use super::super::model::{CauseForest, Input, Model, Origin, World};
+use super::super::model::{CauseForest, Corrected, Input, Model, Origin, World};
 use super::super::tree::{Leaf, Node, Split, Tree};
 use super::{HEAD, checksum};
 use std::iter::Peekable;
@@ -42,9 +42,10 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
         causes.push(cause);
     }
     let net = reader.net()?;
+    let corrected = reader.corrected()?;
     reader.end(text)?;
     match reader.lines.next() {
-        None => Ok(Model { origin, expects, inputs, plausible, net, calibration, causes }),
+        None => Ok(Model { origin, expects, inputs, plausible, net, calibration, causes, corrected }),
         Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
     }
 }
@@ -89,7 +90,7 @@ impl<'a> Reader<'a> {
         let end = self.next("end")?;
         // It is whole only with its own end.
         if end.key != "end" || !text.ends_with('\n') {
-            return Err(end.refuse("another forest, a net, or `end` as the last line"));
+            return Err(end.refuse("another forest, a net, what was corrected, or `end` as the last line"));
         }
         let (lines, sum) = match end.rest.split_once(' ') {
             Some((lines, sum)) => (lines, Some(sum)),
@@ -111,13 +112,18 @@ impl<'a> Reader<'a> {
         let command = self.with_key("command")?.rest.to_owned();
         let line = self.with_key("seed")?;
         let seed = line.rest.parse().map_err(|_| line.refuse("seed and a whole number"))?;
+        Ok(Origin { program, command, seed, worlds: self.worlds("world")? })
+    }
+
+    /// All next lines that have this key.
+    fn worlds(&mut self, key: &str) -> Result<Vec<World>, ReadError> {
         let mut worlds = Vec::new();
-        while let Some(line) = self.next_if("world")? {
+        while let Some(line) = self.next_if(key)? {
             worlds.push(line.world().ok_or_else(|| {
-                line.refuse("world, a count, another of no more, a name, a colon and scores")
+                line.refuse(format!("{key}, a count, another of no more, a name, a colon and scores"))
             })?);
         }
-        Ok(Origin { program, command, seed, worlds })
+        Ok(worlds)
     }
 
     fn calibration(&mut self) -> Result<Calibration, ReadError> {
@@ -145,6 +151,15 @@ impl<'a> Reader<'a> {
             return Err(line.refuse("forest, a number and the name of a cause"));
         };
         Ok(Some(CauseForest { name: name.to_owned(), forest: self.trees(line, base)? }))
+    }
+
+    /// What was corrected, if anything was.
+    fn corrected(&mut self) -> Result<Option<Corrected>, ReadError> {
+        let worlds = self.worlds("corrected")?;
+        if worlds.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(Corrected { forest: self.forest("corrected")?, worlds }))
     }
 
     fn trees(&mut self, line: Line, base: &str) -> Result<Forest, ReadError> {

@@ -10,20 +10,11 @@ use std::fmt::Write;
 
 /// A model as text.
 pub(super) fn text(model: &Model) -> String {
-    let Model { origin, expects, inputs, plausible, net, calibration, causes } = model;
+    let Model { origin, expects, inputs, plausible, net, calibration, causes, corrected } = model;
     let mut lines =
         format!("{HEAD}\nprogram {}\ncommand {}\n", one_line(&origin.program), one_line(&origin.command));
     line(&mut lines, format_args!("seed {}", origin.seed));
-    for World { name, detections, plausible, scores } in &origin.worlds {
-        let mut told = String::new();
-        for (score, value) in scores {
-            told += &format!(" {score} {value}");
-        }
-        line(
-            &mut lines,
-            format_args!("world {detections} {plausible} {}:{told}", one_line(name).replace(':', ";")),
-        );
-    }
+    worlds(&mut lines, "world", &origin.worlds);
     if let Some(share) = expects {
         line(&mut lines, format_args!("expects {share:?}"));
     }
@@ -40,10 +31,25 @@ pub(super) fn text(model: &Model) -> String {
     if let Some(net) = net {
         of_net(&mut lines, net);
     }
+    if let Some(corrected) = corrected {
+        worlds(&mut lines, "corrected", &corrected.worlds);
+        forest(&mut lines, "corrected", &corrected.forest);
+    }
     // A reader sees by their number that one is lost or there twice, and by their sum that one is another.
     let (before, sum) = (lines.lines().count(), checksum(lines.lines()));
     line(&mut lines, format_args!("end {before} {sum}"));
     lines
+}
+
+fn worlds(lines: &mut String, key: &str, worlds: &[World]) {
+    for World { name, detections, plausible, scores } in worlds {
+        let mut told = String::new();
+        for (score, value) in scores {
+            told += &format!(" {score} {value}");
+        }
+        let name = one_line(name).replace(':', ";");
+        line(lines, format_args!("{key} {detections} {plausible} {name}:{told}"));
+    }
 }
 
 fn forest(lines: &mut String, name: &str, Forest { base, trees }: &Forest) {
