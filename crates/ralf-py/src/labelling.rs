@@ -59,13 +59,23 @@ impl ToldJob {
     }
 }
 
-/// All settings, from a TOML file, if any, and assignments `key=value` that win over it; JSON.
+/// All settings; JSON. Assignments `key=value` win over a TOML file, if any, which wins key by key over all settings
+/// `below` it, JSON as this function returns it.
 #[pyfunction]
-pub(crate) fn settings(file: Option<PathBuf>, assignments: Vec<String>) -> PyResult<String> {
-    let text = match &file {
-        Some(file) => read_settings(file)?,
-        None => String::new(),
-    };
+#[pyo3(signature = (file, assignments, below=None))]
+pub(crate) fn settings(
+    file: Option<PathBuf>,
+    assignments: Vec<String>,
+    below: Option<&str>,
+) -> PyResult<String> {
+    let mut texts = Vec::new();
+    if let Some(below) = below {
+        texts.push(from_json::<Settings>(below)?.to_toml().map_err(other)?);
+    }
+    if let Some(file) = &file {
+        texts.push(read_settings(file)?);
+    }
+    let text = Settings::joined(&texts).map_err(other)?;
     let assignments: Vec<&str> = assignments.iter().map(String::as_str).collect();
     to_json(&Settings::from_toml(&text, &assignments).map_err(other)?)
 }

@@ -157,3 +157,14 @@ def test_a_mounting_that_is_none_is_named():
     assert refused((0, 0, 0), sigma_range_m=np.inf) == "front: sigma_range_m: expected a finite number, found inf"
     nothing = [(0.0, float("nan"))]
     assert refused((0, 0, 0), reliability=nothing) == "front: reliability: expected a finite number, found nan"
+
+
+def test_whether_a_radar_measures_elevation_is_a_truth_or_a_word_of_files():
+    for elevation in (True, False, np.bool_(False), "measured", "none"):
+        sequence = ralf.Sequence([ralf.Radar("front", elevation=elevation)], name="a")
+        sequence.add_radar_scan("front", 0, xyz=[[9.0, 0.0, 0.0]])
+        measured = not np.isnan(sequence.label()["elevation"][0])
+        assert measured == (elevation in (True, "measured"))
+    for elevation, error in (("None", ValueError), ("", ValueError), (None, TypeError), (0, TypeError)):
+        with pytest.raises(error, match="front: elevation: expected True or False"):
+            ralf.Radar("front", elevation=elevation)

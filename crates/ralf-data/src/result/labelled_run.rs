@@ -12,9 +12,10 @@ use crate::read::{Recording, SequenceReader, open_with};
 use crate::settings::Settings;
 use crate::tree::{DEPTH, RECORD, SEQUENCES};
 use ralf::config::Config;
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, Sequence};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// An output folder of `ralf label`.
 #[derive(Debug, Clone)]
@@ -208,6 +209,18 @@ impl LabelledRun {
         let tables = PlausibilityReader::open(&file, &schema)?;
         let settings = self.record.settings.method.clone();
         Ok(LabelledSequence { record: record.clone(), rig, settings, tables })
+    }
+
+    /// The columns of [`Self::sequence`]'s table, for little more than the opening of its file: whether that is whole
+    /// is not looked at.
+    ///
+    /// # Errors
+    /// A table that can't be read, or not of the recording's radars.
+    pub(crate) fn columns(&self, reader: &dyn SequenceReader) -> Result<Arc<Schema>, DataError> {
+        let Sequence { name, rig, .. } = reader.sequence();
+        let file = self.places.plausibility_file(&super::checked("sequence", name)?);
+        let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
+        PlausibilityReader::columns_of(&file, &Schema::of(rig, &[]).map_err(unlike)?)
     }
 
     /// The table of a sequence, with the columns that every result has.

@@ -71,6 +71,11 @@ impl Component {
         Self(format!("{}{ending}", self.0))
     }
 
+    /// The same with something of the program's own before it.
+    pub(crate) fn after(&self, beginning: &'static str) -> Self {
+        Self(format!("{beginning}{}", self.0))
+    }
+
     /// The same, hidden and with an ending.
     pub(crate) fn hidden(&self, ending: &'static str) -> Self {
         Self(format!(".{}{ending}", self.0))

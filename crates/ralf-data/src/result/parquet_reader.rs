@@ -40,9 +40,7 @@ impl PlausibilityReader {
     /// # Errors
     /// A file that is no result of `ralf label`, that lacks a column, or whose scans are torn apart.
     pub fn open(file: &Path, schema: &Schema) -> Result<Self, DataError> {
-        let open = files::open(file)?;
-        let reader = SerializedFileReader::new(open).map_err(|error| unreadable(file, error))?;
-        let schema = Arc::new(with_evidence(&reader, schema).map_err(|error| unreadable(file, error))?);
+        let (reader, schema) = begun(file, schema)?;
         let (mut scans, mut places) = (Vec::new(), BTreeMap::new());
         for number in 0..reader.num_row_groups() {
             let group = reader.get_row_group(number).map_err(|error| unreadable(file, error))?;
@@ -55,6 +53,14 @@ impl PlausibilityReader {
             }
         }
         Ok(Self { file: file.to_owned(), schema, reader, scans, places })
+    }
+
+    /// The columns that [`Self::open`] reads, without a look at any row.
+    ///
+    /// # Errors
+    /// A file that is no result of `ralf label`, or lacks a column.
+    pub(crate) fn columns_of(file: &Path, schema: &Schema) -> Result<Arc<Schema>, DataError> {
+        begun(file, schema).map(|(_, schema)| schema)
     }
 
     /// Opens a result with all columns that it holds, whichever fields the radars have.
@@ -195,6 +201,14 @@ fn told(key: &RadarScanKey) -> String {
 
 fn unreadable(file: &Path, error: ParquetError) -> DataError {
     DataError::content(file, "Parquet", "a result of `ralf label`", error.to_string())
+}
+
+/// Opens a file, and finds out what is read of it: the columns that are needed, and evidence.
+fn begun(file: &Path, needed: &Schema) -> Result<(SerializedFileReader<File>, Arc<Schema>), DataError> {
+    let refused = |error| unreadable(file, error);
+    let reader = SerializedFileReader::new(files::open(file)?).map_err(refused)?;
+    let schema = with_evidence(&reader, needed).map_err(refused)?;
+    Ok((reader, Arc::new(schema)))
 }
 
 /// The columns that are needed, and after them what the file has behind the last of them: evidence, and what a model

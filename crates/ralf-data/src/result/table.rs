@@ -78,6 +78,20 @@ impl Values {
         }
     }
 
+    /// So many that are absent: no number, no class, unknown, an empty text; 0 of a kind that never is.
+    pub(crate) fn absent(kind: Kind, rows: usize) -> Self {
+        match kind {
+            Kind::Text => Self::Text(vec!["".into(); rows]),
+            Kind::U8 => Self::U8(vec![0; rows]),
+            Kind::U16 => Self::U16(vec![0; rows]),
+            Kind::U32 => Self::U32(vec![0; rows]),
+            Kind::I64 => Self::I64(vec![0; rows]),
+            Kind::F32 => Self::F32(vec![f32::NAN; rows]),
+            Kind::Class => Self::Class(vec![None; rows]),
+            Kind::Truth => Self::Truth(vec![None; rows]),
+        }
+    }
+
     /// Their kind.
     pub fn kind(&self) -> Kind {
         match self {
@@ -213,6 +227,11 @@ impl Table {
     }
 
     /// The values of all columns, in order.
+    pub(crate) fn values(&self) -> &[Values] {
+        &self.values
+    }
+
+    /// The same, and nothing else of the table.
     pub fn into_values(self) -> Vec<Values> {
         self.values
     }

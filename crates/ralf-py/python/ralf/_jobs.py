@@ -6,9 +6,12 @@ import json
 import operator
 import os
 import sys
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ralf import _ralf
 
@@ -16,23 +19,30 @@ Path_ = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 Settings = Mapping[str, Any] | Path_ | None
 
 
-def settings_json(settings: Settings, method: str | None = None) -> Any:
-    """All settings: of a TOML file, or of a mapping whose keys are `lidar.beta` or `lidar` with a mapping below it."""
+def settings_json(settings: Settings, method: str | None = None, below: Any = None) -> Any:
+    """All settings: of a TOML file, or of a mapping whose keys are `lidar.beta` or `lidar` with a mapping below it.
+
+    They count, key by key, above what `below` holds: all settings, as this function returned them.
+    """
     file: str | None = None
     assignments: list[str] = []
     if isinstance(settings, Mapping):
         assignments = [f"{key}={_toml(value)}" for key, value in _flat(settings)]
-    elif settings is not None:
+    elif isinstance(settings, str | bytes | os.PathLike):
         file = os.fsdecode(settings)
+    elif settings is not None:
+        raise TypeError(f"settings: expected a mapping or a TOML file, found {settings!r}")
     if method is not None:
         assignments.append(f"method={_toml(method)}")
-    return json.loads(_ralf.settings(file, assignments))
+    return json.loads(_ralf.settings(file, assignments, None if below is None else json.dumps(below)))
 
 
 def _flat(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, Any]]:
     """Nested mappings as dotted keys."""
     found: list[tuple[str, Any]] = []
     for key, value in settings.items():
+        if not isinstance(key, str):
+            raise TypeError(f"settings: expected the names of settings as keys, found {before}{key!r}")
         if isinstance(value, Mapping):
             found += _flat(value, f"{before}{key}.")
         else:
@@ -41,15 +51,35 @@ def _flat(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, Any]
 
 
 def _toml(value: Any) -> str:
-    """A value as TOML has it."""
+    """A value as TOML has it; NumPy's numbers and arrays are told as Python's."""
+    if isinstance(value, np.generic | np.ndarray):
+        return _toml(value.tolist())
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_toml(item) for item in value) + "]"
     if isinstance(value, str | os.PathLike):
         return json.dumps(os.fspath(value), ensure_ascii=False)
-    # NumPy's numbers are told as Python's.
+    # So are the numbers of other packages.
     return repr(value.item() if hasattr(value, "item") else value)
+
+
+def names(given: Iterable[str] | None, what: str) -> list[str] | None:
+    """Names as a list, where there are any; a text by itself would be taken for its letters."""
+    if given is None:
+        return None
+    if isinstance(given, str | bytes):
+        raise TypeError(f"{what}: expected a list of names, found {given!r}")
+    found = list(given)
+    for name in found:
+        if not isinstance(name, str):
+            raise TypeError(f"{what}: expected names, found {name!r} among them")
+    return [str(name) for name in found]
+
+
+def anywhere(path: str) -> str:
+    """A path that leads to the same place from every folder: a notebook's `%cd` must not lead to other data."""
+    return str(Path.cwd() / path) if path else path
 
 
 def utf8(value: Path_, what: str) -> str:
@@ -91,6 +121,20 @@ class Job:
     segmentation: str | None
     told: str
 
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All its settings."""
+        settings: dict[str, Any] = json.loads(self.told)["settings"]
+        return settings
+
+    def anywhere(self) -> Job:
+        """The same, with paths of what is read that lead to the same places from every folder."""
+        told = json.loads(self.told)
+        motion = told["settings"].get("motion", {})
+        if motion.get("trajectory"):
+            motion["trajectory"] = anywhere(motion["trajectory"])
+        return replace(self, recording=anywhere(self.recording), told=json.dumps(told))
+
 
 def job(
     recording: Path_,
@@ -100,19 +144,23 @@ def job(
     method: str | None = None,
     model: Path_ | None = None,
     format: str | None = None,  # noqa: A002
-    sequences: list[str] | None = None,
+    sequences: Iterable[str] | None = None,
     depth: Path_ | None = None,
     segmentation: Path_ | None = None,
     evidence: bool = False,
     check: bool = True,
+    below: Any = None,
 ) -> Job:
-    """A job, with its settings resolved."""
-    resolved = settings_json(settings, method)
+    """A job, with its settings resolved: those that are given, above those of `below`."""
+    resolved = settings_json(settings, method, below)
     if model is not None and resolved["method"] != "learned":
         raise ValueError(f'model: expected the method that asks one, method="learned", found {resolved["method"]!r}')
+    chosen = names(sequences, "sequences")
+    if chosen == []:
+        raise ValueError("sequences: expected one or more names, or None for all sequences, found an empty list")
     told = {
         "format": format,
-        "sequences": sequences or [],
+        "sequences": chosen or [],
         "settings": resolved,
         "evidence": evidence,
         "check": check,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Path_, whole
+from ralf._jobs import Path_, anywhere, whole
 from ralf._warnings import warn_of
 from ralf.run import Run, Scan
 
@@ -61,7 +61,7 @@ class Truth:
     """
 
     def __init__(self, dataset: Path_, run: Run | Path_ | None = None) -> None:
-        self._told = (os.fsdecode(dataset), None if run is None else _out(run))
+        self._told = (anywhere(os.fsdecode(dataset)), None if run is None else anywhere(_out(run)))
         self._truth = _ralf.Truth(*self._told)
         warn_of(self._truth.orphaned)
 
@@ -113,13 +113,15 @@ def plot(
     """Draw a labelled scan from above, or the whole sequence where no scan is given.
 
     Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in
-    m; `color_by` names a column of numbers. The picture is `width` pixels wide. The recording is the run's own if not
-    given. Scans that could not be labelled are a warning each; a picture of such scans alone is refused: it would
-    show that nothing is plausible.
+    m; `color_by` names a column of numbers that a scan is coloured by, and wants one. The picture is `width` pixels
+    wide. The recording is the run's own if not given. Scans that could not be labelled are a warning each; a picture
+    of such scans alone is refused: it would show that nothing is plausible.
     """
     source = recording or run.recording
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
+    if color_by is not None and scan is None:
+        raise ValueError(f"color_by: expected a scan to colour, plot(..., scan=...), found none beside {color_by!r}")
     number = None if scan is None else whole(scan, "scan")
     pixels = whole(width, "width", 2**32 - 1)
     png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, number, radar, radius, color_by, pixels)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -72,7 +72,7 @@ class Assembled:
 
 
 def plan(
-    recordings: Sequence[Path_],
+    recordings: Iterable[Path_] | Path_,
     out: Path_,
     *,
     settings: Settings = None,
@@ -86,7 +86,7 @@ def plan(
     jobs: int | None = None,
     progress: Progress = None,
 ) -> Plan:
-    """Plan what is left to be done of recordings: tasks of so many radar scans at most, for `label_one`.
+    """Plan what is left to be done of recordings, or of one: tasks of so many radar scans at most, for `label_one`.
 
     The results of a recording go to a folder of its name in `out`. `depth` and `segmentation` are folders that `ralf
     depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording
@@ -99,7 +99,9 @@ def plan(
     for name, place in (("model", model), ("depth", depth), ("segmentation", segmentation)):
         if place is not None:
             utf8(place, name)
-    places = [utf8(recording, "recordings") for recording in recordings]
+    # The letters of a path are no recordings.
+    given = [recordings] if isinstance(recordings, str | bytes | os.PathLike) else recordings
+    places = [utf8(recording, "recordings") for recording in given]
     for recording, folder in zip(places, _ralf.folders(places, utf8(out, "out")), strict=True):
         told = job(
             recording,

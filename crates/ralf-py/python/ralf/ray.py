@@ -25,7 +25,7 @@ RETRIES = 5
 
 
 def label(
-    recordings: Sequence[str | os.PathLike[str]],
+    recordings: Sequence[str | os.PathLike[str]] | str | os.PathLike[str],
     out: str | os.PathLike[str],
     *,
     address: str | None = None,
@@ -33,7 +33,7 @@ def label(
     progress: bool | Callable[[int, int], object] = True,
     **options: Any,
 ) -> Assembled:
-    """Label recordings on a Ray cluster: what `ralf.label` writes of each to a folder of its name in `out`.
+    """Label recordings, or one, on a Ray cluster: what `ralf.label` writes of each to a folder of its name in `out`.
 
     All nodes see the folders of recordings and results under the same paths. Each recording is planned, labelled in
     stretches and put together on the cluster, a core at a time. What a lost node was at is done by another, a second
@@ -43,6 +43,8 @@ def label(
     if not ray.is_initialized():
         ray.init(address=address, log_to_driver=False)
     told = _teller(progress)
+    if isinstance(recordings, str | os.PathLike):
+        recordings = [recordings]
     plans = [_plan.remote(os.fspath(recording), os.fspath(out), scans, options) for recording in recordings]
     plan = Plan()
     for recording, reference in zip(recordings, plans, strict=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,9 +63,9 @@ class Recording:
     """A recording of any format. Its tables are read, its measurements are not until they are asked for."""
 
     def __init__(self, job: Job) -> None:
-        self.path = job.recording
-        self._job = job
-        self._recording = _ralf.Recording(job)
+        self._job = job.anywhere()
+        self.path = self._job.recording
+        self._recording = _ralf.Recording(self._job)
 
     @property
     def format(self) -> str:
@@ -80,6 +81,11 @@ class Recording:
     def warnings(self) -> list[str]:
         """What its reader ignored or misses, each after the name of its sequence."""
         return self._recording.warnings
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All settings that it was opened with, by which `ralf.label` labels it."""
+        return self._job.settings
 
     def __getitem__(self, sequence: str) -> SequenceInfo:
         told: dict[str, Any] = json.loads(self._recording.sequence(sequence))
@@ -117,13 +123,14 @@ def open(  # noqa: A001
     path: Path_,
     *,
     format: str | None = None,  # noqa: A002
-    sequences: list[str] | None = None,
+    sequences: Iterable[str] | None = None,
     settings: Settings = None,
 ) -> Recording:
     """Open a recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds.
 
     What its reader ignored or misses is a warning; of many the first few are given, and `Recording.warnings` has all.
-    `settings` may correct mountings, clocks and motion.
+    `settings` may correct mountings, clocks and motion; `ralf.label` of the recording goes by them, too. `sequences`
+    are those that are opened, all if not given.
     """
     recording = Recording(job(path, "", format=format, sequences=sequences, settings=settings))
     warn_of(bounded(recording.warnings, "warnings"))

@@ -100,8 +100,8 @@ class Run:
     """What labelling left in a folder: a table per sequence, and a record."""
 
     def __init__(self, out: Path_, recording: Path_ | None = None) -> None:
-        self.out = Path(os.fsdecode(out))
-        self.recording = None if recording is None else Path(os.fsdecode(recording))
+        self.out = Path(os.fsdecode(out)).absolute()
+        self.recording = None if recording is None else Path(os.fsdecode(recording)).absolute()
         """Where the recording lies, as far as it is known."""
         self.labelled: list[str] = []
         """Sequences that this call has labelled; the others were labelled before."""
@@ -187,7 +187,7 @@ def label(
     method: str | None = None,
     model: Path_ | None = None,
     format: str | None = None,  # noqa: A002
-    sequences: list[str] | None = None,
+    sequences: Iterable[str] | None = None,
     depth: Path_ | None = None,
     segmentation: Path_ | None = None,
     evidence: bool = False,
@@ -197,17 +197,19 @@ def label(
 ) -> Run:
     """Label every radar detection of a recording, as `ralf label` does: the same bytes, and resumable like it.
 
-    `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file. `method` is "paper" or "learned", which asks
-    `model`, the shipped one if not given. `depth` is a folder of depth images, `segmentation` one of segmentations.
-    `jobs` is the number of threads, as many as there are processors if not given. Ctrl-C stops it, and what is done is
-    kept. What becomes of earlier results in `out`, those of other settings that are removed among them, is a warning.
-    So is what `ralf label` warns of: what readers ignored, what the check doubts, what could not be labelled, and what
-    others were labelled without. Of many warnings of a kind the first few are given, and the `Run` has all.
+    `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file. A `Recording` brings the settings that it was opened
+    with, its format and its sequences; what is given here counts above them, settings key by key. `method` is "paper"
+    or "learned", which asks `model`, the shipped one if not given. `depth` is a folder of depth images, `segmentation`
+    one of segmentations. `jobs` is the number of threads, as many as there are processors if not given. Ctrl-C stops
+    it, and what is done is kept. What becomes of earlier results in `out`, those of other settings that are removed
+    among them, is a warning. So is what `ralf label` warns of: what readers ignored, what the check doubts, what could
+    not be labelled, and what others were labelled without. Of many warnings of a kind the first few are given, and the
+    `Run` has all.
     """
-    path = recording.path if isinstance(recording, Recording) else recording
+    path, below = (recording.path, recording.settings) if isinstance(recording, Recording) else (recording, None)
     if isinstance(recording, Recording):
         format = format or recording.format  # noqa: A001
-        sequences = sequences or recording.sequences
+        sequences = recording.sequences if sequences is None else sequences
     told = job(
         path,
         out,
@@ -220,6 +222,7 @@ def label(
         segmentation=segmentation,
         evidence=evidence,
         check=check,
+        below=below,
     )
     labelled, asked, earlier, warnings = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
     run = Run(out, path)

@@ -19,20 +19,23 @@ class Radar:
     """A radar: where it sits, and how well it measures.
 
     `mounting` is vehicle_from_radar: a 4 x 4 matrix; x, y, z in m and a quaternion x, y, z, w; or x, y, z alone of one
-    that looks straight ahead. A radar without `elevation` measures range and azimuth alone. `reliability` is a list of
-    azimuth (degrees) and the factor (1 or more) that uncertainties grow by there. The defaults are those of a 77 GHz
-    radar of which nothing is known.
+    that looks straight ahead. A radar without `elevation` (False, or "none" as files have it) measures range and
+    azimuth alone. `reliability` is a list of azimuth (degrees) and the factor (1 or more) that uncertainties grow by
+    there. The defaults are those of a 77 GHz radar of which nothing is known.
     """
 
     name: str
     mounting: ArrayLike = (0.0, 0.0, 0.0)
-    elevation: bool = True
+    elevation: bool | Literal["measured", "none"] = True
     fov_azimuth_deg: float = 120.0
     fov_elevation_deg: float = 30.0
     sigma_range_m: float = 0.2
     sigma_azimuth_deg: float = 1.0
     sigma_elevation_deg: float = 1.0
     reliability: Items[tuple[float, float]] = ()
+
+    def __post_init__(self) -> None:
+        _elevation(self)
 
 
 @dataclass(frozen=True)
@@ -173,9 +176,21 @@ def _times(values: ArrayLike, place: str) -> list[int]:
 
 
 def _radar(radar: Radar, fields: list[str]) -> dict[str, Any]:
-    elevation = "measured" if radar.elevation else "none"
     # Without a scan, nothing is known of a radar's fields but that it has some.
-    return _mounted(radar) | {"elevation": elevation, "fields": fields or ["x", "y", "z"]}
+    return _mounted(radar) | {"elevation": _elevation(radar), "fields": fields or ["x", "y", "z"]}
+
+
+def _elevation(radar: Radar) -> str:
+    """Whether a radar measures elevation, in the words of files. What is neither is refused: any text is true."""
+    given = radar.elevation
+    if isinstance(given, bool | np.bool_):
+        return "measured" if given else "none"
+    place = f'{radar.name}: elevation: expected True or False, "measured" or "none"'
+    if not isinstance(given, str):
+        raise TypeError(f"{place}, found {given!r}")
+    if given not in {"measured", "none"}:
+        raise ValueError(f"{place}, found {given!r}")
+    return given
 
 
 def _camera(camera: Camera) -> dict[str, Any]:

@@ -16,6 +16,7 @@ import numpy as np
 import torch
 from torch.utils.data import Dataset, IterableDataset, get_worker_info
 
+from ralf._jobs import names
 from ralf.judging import Truth
 from ralf.run import Run, Scan, load, refuse_unknown
 
@@ -43,8 +44,12 @@ class Batch(Sample):
 class ScanDataset(Dataset[Sample]):
     """The scans of runs, by number. Tables are read when they are first asked for, in each worker by itself.
 
-    `truth` is the dataset whose truth is taken in place of RALF's labels; what people corrected in a run's review
-    counts above it, as in `ralf.evaluate`. A `ralf.Truth` is taken as it is. A scan without truth is all unknown.
+    Labels are RALF's own: without `truth` nothing that people corrected counts. `truth` is the dataset whose truth is
+    taken in place of them; what people corrected in a run's review counts above it, as in `ralf.evaluate`. A
+    `ralf.Truth` is taken as it is. A scan without truth is all unknown.
+
+    One sequence is in memory at a time, and another one is read when one of its scans is asked for: where scans of
+    several sequences are drawn at random, every draw may read a whole table. `ScanStream` draws them by sequence.
     """
 
     def __init__(
@@ -57,6 +62,7 @@ class ScanDataset(Dataset[Sample]):
         truth: Truth | str | os.PathLike[str] | None = None,
     ) -> None:
         self.features = list(features)
+        radars, sequences = names(radars, "radars"), names(sequences, "sequences")
         self._truths: list[Truth | None] = []
         self._scans: list[tuple[Path, str, list[int]]] = []
         self._ends: list[int] = []

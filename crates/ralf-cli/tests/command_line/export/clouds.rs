@@ -1,7 +1,7 @@
 //! PCD and SemanticKITTI's tree.
 
 use super::{BRANCHES, export, found, list, recorded, small};
-use crate::support::{read_export, tree};
+use crate::support::{Dataset, Shape, ralf, read_export, tree};
 use serde_json::json;
 
 #[test]
@@ -30,6 +30,25 @@ fn clouds_hold_the_radars_fields_and_what_was_found() {
     assert_eq!(read["types"]["label"], "uint32");
     assert_eq!(read["types"]["flags"], "uint16");
     assert_eq!(read["viewpoints"]["radar_front"], json!([3.6, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0]));
+}
+
+/// pypcd4 reads fields up to the first character that it doesn't know, and takes those for all.
+#[test]
+fn fields_are_called_so_that_all_of_them_are_read() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    dataset.edit("sequence.toml", "\"doppler\", \"rcs\"", "\"speed m/s\", \"rcs [dBsm]\"");
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0);
+    let path = export(&dataset, "pcd", "clouds", &[]);
+    let cloud = std::fs::read(format!("{path}/sequences/00/radar_front/000000.pcd")).unwrap();
+    let header = String::from_utf8_lossy(&cloud);
+    assert!(header.contains("\nFIELDS x y z speed_m_s rcs__dBsm_ plausibility "), "{header}");
+    let Some(read) = read_export("pcd", &path) else { return };
+    let found = found(&dataset, "00");
+    for (row, found) in list(&read).iter().zip(&found).filter(|(_, found)| found.radar == "radar_front") {
+        let measured = &recorded(&dataset, "radar_front", found.scan, 5)[found.point as usize];
+        let names = ["x", "y", "z", "speed_m_s", "rcs__dBsm_"];
+        assert_eq!(names.map(|name| row[name].as_f64().unwrap()), measured[..]);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! NPZ, Parquet, and nuScenes' sidecars.
 
 use super::{BRANCHES, export, found, labelled, list, small};
-use crate::support::{Dataset, Shape, ralf, read_export, rows, tree};
+use crate::support::{Dataset, Shape, put, ralf, read_export, rows, schema, tree};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -107,6 +107,10 @@ fn which_sensor_told_a_class_is_exported() {
     let scan = Path::new(&dataset.path).join("sequences/tiny/lidar_top/000000.bin");
     let points = fs::metadata(&scan).unwrap().len() as usize / 16;
     fs::write(scan.with_extension("label"), 50_u32.to_le_bytes().repeat(points)).unwrap();
+    // The same sequence, of which no camera was asked.
+    let mut untold = tree(format!("{}/sequences/tiny", dataset.path));
+    untold.retain(|name, _| !name.contains("/segmentation"));
+    put(&untold, format!("{}/sequences/untold", dataset.path));
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     let said = rows(Path::new(&dataset.out).join("sequences/tiny/plausibility.parquet"));
     for source in [Some("lidar"), Some("camera"), Some("")] {
@@ -120,21 +124,74 @@ fn which_sensor_told_a_class_is_exported() {
             [of_radar, &exported].map(|rows| rows.iter().map(|row| row.text("class_from")));
         assert!(exported.eq(told), "{radar}");
     }
+    let untold = rows(format!("{tables}/sequence=untold/radar_front.parquet"));
+    for row in &untold {
+        let has_class = ![1, 99].contains(&row.whole("label").unwrap());
+        assert_eq!(row.text("class_from"), Some(if has_class { "lidar" } else { "" }));
+    }
+    assert!(untold.iter().any(|row| row.text("class_from") == Some("lidar")));
     let Some(arrays) = read_export("npz", &export(&dataset, "npz", "arrays", &[])) else { return };
     for radar in ["radar_front", "radar_rear"] {
         let told = said.iter().filter(|row| row.radar() == radar).map(|row| row.text("class_from"));
-        let arrays = list(&arrays).iter().filter(|row| row["radar"] == radar);
+        let of_radar = |row: &&Value| row["sequence"] == "tiny" && row["radar"] == radar;
+        let arrays = list(&arrays).iter().filter(of_radar);
         assert!(arrays.map(|row| row["class_from"].as_str()).eq(told), "{radar}");
     }
+}
+
+/// A reader of the data set takes the columns of its first file for those of all.
+#[test]
+fn all_files_of_a_data_set_have_the_columns_of_every_sequence() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    let file = format!("{}/sequences/01/sequence.toml", dataset.path);
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text.replacen("\"rcs\"", "\"power\"", 1)).unwrap();
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0);
+    let path = export(&dataset, "parquet", "labels", &["--sensors"]);
+    let table = |sequence, radar| format!("{path}/sequence={sequence}/{radar}.parquet");
+    let columns = schema(table("00", "radar_front"));
+    for (sequence, own, other) in [("00", "rcs", "power"), ("01", "power", "rcs")] {
+        assert_eq!(schema(table(sequence, "radar_front")), columns);
+        assert_eq!(schema(table(sequence, "radar_left")), columns);
+        for row in rows(table(sequence, "radar_front")) {
+            assert!(row.decimal(own).is_some() && row.decimal(other).is_none(), "{sequence}");
+        }
+    }
+    // Of one sequence alone, the other's columns are nobody's.
+    let alone = export(&dataset, "parquet", "alone", &["--sensors", "--sequence", "00"]);
+    let alone = schema(format!("{alone}/sequence=00/radar_front.parquet"));
+    assert_eq!(columns.len(), alone.len() + 1);
+    assert!(alone.iter().all(|column| columns.contains(column) && !column.starts_with("power")));
+    let Some(read) = read_export("parquet", &path) else { return };
+    for name in ["rcs", "power"] {
+        assert!(list(&read).iter().any(|row| row[name].is_number()), "{name}");
+    }
+}
+
+/// Readers pass over files whose names begin with an underscore.
+#[test]
+fn the_rows_of_every_radar_are_found_whatever_its_name() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    dataset.edit("sequence.toml", "\"radar_left\"", "\"_front\"");
+    fs::rename(dataset.file("radar_left"), dataset.file("_front")).unwrap();
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0);
+    let path = export(&dataset, "parquet", "labels", &[]);
+    export(&dataset, "parquet", "labels", &["--force"]);
+    let files: Vec<String> = tree(&path).into_keys().filter(|name| name.contains('/')).collect();
+    assert_eq!(files, ["radar_front", "radarradar_front"].map(|name| format!("sequence=00/{name}.parquet")));
+    let named = rows(format!("{path}/sequence=00/radarradar_front.parquet"));
+    assert!(!named.is_empty() && named.iter().all(|row| row.radar() == "_front"));
+    let Some(read) = read_export("parquet", &path) else { return };
+    assert_eq!(list(&read).len(), rows(dataset.result("plausibility.parquet")).len());
 }
 
 #[test]
 fn sidecars_need_the_tokens_of_nuscenes() {
     let dataset = small();
     let path = dataset.beside("sidecars");
-    super::run(&dataset, "nuscenes", &path, &[])
-        .exits(1)
-        .says(["00: sample_data tokens: only a recording that is read from nuScenes' own tables has them"]);
+    let told =
+        "00: sample_data tokens: only a recording that is read from the tables of nuScenes or TruckScenes";
+    super::run(&dataset, "nuscenes", &path, &[]).exits(1).says([told]);
     assert!(!std::fs::exists(&path).unwrap());
 }
 

@@ -1,6 +1,7 @@
 //! A scan as named, typed columns: what tables and clouds have in common.
 
 use super::labelled::{LabelledScan, LabelledSequence};
+use super::options::Sensors;
 use crate::error::DataError;
 use crate::result::schema::field;
 use crate::result::{CLASS_FROM, Column, Group, Kind, Schema, Table, Values};
@@ -29,11 +30,27 @@ impl Columns {
 /// The columns of `plausibility.parquet` but `radar` and `semantic`, with the effective labels; of what was measured
 /// only if asked for. Words are the machine's, as plausibilities are.
 pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Result<Table, DataError> {
+    let sensors = sequence.sensors;
+    let found = columns_of(scan, sensors)?;
+    // `sequence` is how readers of a tree of tables call the part of its path.
+    let is_twice = |name: &str| found.columns.iter().filter(|column| column.name == name).count() > 1;
+    refuse_fields(sequence, scan, |name| sensors.radar && (name == "sequence" || is_twice(name)))?;
+    found.table()
+}
+
+/// The columns that [`table_columns`] has of a sequence whose results have these.
+pub(super) fn table_schema(results: Arc<Schema>, sensors: Sensors) -> Result<Schema, DataError> {
+    let table = Table::empty(results);
+    let nothing = LabelledScan { radar: 0, scan: 0, table, labels: Vec::new(), kept: Vec::new() };
+    Ok(Schema::new(columns_of(&nothing, sensors)?.columns))
+}
+
+fn columns_of(scan: &LabelledScan, sensors: Sensors) -> Result<Columns, DataError> {
     let mut columns = Columns::default();
     let number = vec![scan.scan as u32; scan.kept.len()];
     columns.add(plain("scan", Kind::U32, "The number of the scan.", Group::Identity), Values::U32(number));
     for group in [Group::Identity, Group::Measured, Group::Answers] {
-        if group != Group::Measured || sequence.sensors.radar {
+        if group != Group::Measured || sensors.radar {
             add_group(&mut columns, scan, group);
         }
     }
@@ -46,10 +63,7 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
     add_where(&mut columns, scan, |column| column.name == CLASS_FROM.name);
     add_group(&mut columns, scan, Group::Evidence);
     add_group(&mut columns, scan, Group::Words);
-    // `sequence` is how readers of a tree of tables call the part of its path.
-    let is_twice = |name: &str| columns.columns.iter().filter(|column| column.name == name).count() > 1;
-    refuse_fields(sequence, scan, |name| sequence.sensors.radar && (name == "sequence" || is_twice(name)))?;
-    columns.table()
+    Ok(columns)
 }
 
 /// A field of the recording that is called like what the export adds could not be told from it.

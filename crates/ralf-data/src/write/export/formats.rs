@@ -1,6 +1,5 @@
 //! The formats that labels can be exported in: an entry for each.
 
-use super::Writer;
 use super::npz::Npz;
 use super::nuscenes::NuScenes;
 use super::options::{Sensors, Split};
@@ -8,15 +7,11 @@ use super::parquet::Parquet;
 use super::pcd::Pcd;
 use super::ros::{self, Ros, RosFormat};
 use super::semantic_kitti::SemanticKitti;
+use super::{Contents, Writer};
 use crate::error::DataError;
-use crate::read::SequenceReader;
-use crate::result::SequenceRecord;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
-
-/// The sequences of an export, each with what the run tells of it.
-type Sequences<'a> = [(&'a dyn SequenceReader, &'a SequenceRecord)];
 
 /// What there is to know of a format.
 struct Format {
@@ -27,7 +22,7 @@ struct Format {
     /// How a sequence can be one file; `None` of formats that are always a folder.
     single_file: Option<SingleFile>,
     /// What writes it.
-    writer: fn(&Sequences) -> Box<dyn Writer>,
+    writer: fn(&Contents) -> Result<Box<dyn Writer>, DataError>,
 }
 
 /// A format of which one sequence can be one file.
@@ -47,24 +42,34 @@ static FORMATS: [Format; 7] = [
         name: "mcap",
         sensors: Sensors::ALL,
         single_file: Some(SingleFile { ending: RosFormat::Mcap.ending(), is_export: ros::is_labelled }),
-        writer: |_| Box::new(Ros::new(RosFormat::Mcap)),
+        writer: |_| Ok(Box::new(Ros::new(RosFormat::Mcap))),
     },
     Format {
         name: "rosbag1",
         sensors: Sensors::ALL,
         single_file: Some(SingleFile { ending: RosFormat::Bag.ending(), is_export: ros::is_labelled }),
-        writer: |_| Box::new(Ros::new(RosFormat::Bag)),
+        writer: |_| Ok(Box::new(Ros::new(RosFormat::Bag))),
     },
     Format {
         name: "semantickitti",
         sensors: RADAR,
         single_file: None,
-        writer: |sequences| Box::new(SemanticKitti::new(sequences)),
+        writer: |contents| Ok(Box::new(SemanticKitti::new(contents.sequences))),
     },
-    Format { name: "pcd", sensors: RADAR, single_file: None, writer: |_| Box::new(Pcd) },
-    Format { name: "npz", sensors: RADAR, single_file: None, writer: |_| Box::new(Npz) },
-    Format { name: "parquet", sensors: RADAR, single_file: None, writer: |_| Box::new(Parquet) },
-    Format { name: "nuscenes", sensors: NONE, single_file: None, writer: |_| Box::new(NuScenes::default()) },
+    Format { name: "pcd", sensors: RADAR, single_file: None, writer: |_| Ok(Box::new(Pcd)) },
+    Format { name: "npz", sensors: RADAR, single_file: None, writer: |_| Ok(Box::new(Npz)) },
+    Format {
+        name: "parquet",
+        sensors: RADAR,
+        single_file: None,
+        writer: |contents| Ok(Box::new(Parquet::new(contents)?)),
+    },
+    Format {
+        name: "nuscenes",
+        sensors: NONE,
+        single_file: None,
+        writer: |_| Ok(Box::new(NuScenes::default())),
+    },
 ];
 
 /// A format that labels can be exported in: [`ExportFormat::ALL`] of them, each known by its name.
@@ -125,9 +130,9 @@ impl ExportFormat {
         self.0.single_file.as_ref()
     }
 
-    /// What writes it, for these sequences.
-    pub(super) fn writer(self, sequences: &Sequences) -> Box<dyn Writer> {
-        (self.0.writer)(sequences)
+    /// What writes it, of these contents.
+    pub(super) fn writer(self, contents: &Contents) -> Result<Box<dyn Writer>, DataError> {
+        (self.0.writer)(contents)
     }
 }
 

@@ -13,6 +13,7 @@
 
 mod bytes;
 mod columns;
+mod common_columns;
 mod formats;
 mod labelled;
 mod npy_array;
@@ -32,8 +33,8 @@ pub use ros::{RosFormat, RosWritten, write_ros};
 
 use crate::disk::real_path::through_link;
 use crate::error::DataError;
-use crate::read::{Recording, refuse_to_write_into};
-use crate::result::{LabelledRun, OutFolder, SequenceNames};
+use crate::read::{Recording, SequenceReader, refuse_to_write_into};
+use crate::result::{LabelledRun, OutFolder, SequenceNames, SequenceRecord};
 use crate::truth::Corrections;
 use labelled::{LabelledSequence, Tally};
 use place::Place;
@@ -65,6 +66,16 @@ pub struct Exported {
     /// Sequences whose times are later in the export than in the recording, and by how much, ns: those with times
     /// before 1970, where the format has none.
     pub delayed: Vec<(String, i64)>,
+}
+
+/// What an export is made of, as its writer has to know it from the beginning.
+struct Contents<'a> {
+    /// Where the labels are from.
+    run: &'a LabelledRun,
+    /// The sequences, each with what the run tells of it.
+    sequences: &'a [(&'a dyn SequenceReader, &'a SequenceRecord)],
+    /// Whose data go with the labels.
+    sensors: Sensors,
 }
 
 /// The writer of a format.
@@ -119,7 +130,8 @@ impl Export<'_> {
         }
         let names = SequenceNames::all(sequences.iter().map(|(reader, _)| *reader))?;
         let place = Place::prepare(path, &self.options, names.iter().map(|names| &names.sequence))?;
-        let mut writer = self.options.format.writer(&sequences);
+        let contents = Contents { run: &run, sequences: &sequences, sensors: self.options.sensors };
+        let mut writer = self.options.format.writer(&contents)?;
         let mut tally = Tally { exported, progress };
         for (found, names) in sequences.into_iter().zip(names) {
             let mut sequence = LabelledSequence::open(self, &run, &corrections, found.0, names, &mut tally)?;

@@ -1,5 +1,6 @@
-//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per
-//! point of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
+//! Label sidecars for nuScenes and TruckScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin`
+//! with one uint8 per point of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the
+//! classes beside it.
 //!
 //! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be
 //! overwritten.
@@ -83,7 +84,8 @@ fn no_tokens(sequence: &str) -> DataError {
     DataError::Unsuitable {
         file: sequence.into(),
         place: "sample_data tokens".to_owned(),
-        reason: "only a recording that is read from nuScenes' own tables has them".to_owned(),
+        reason: "only a recording that is read from the tables of nuScenes or TruckScenes has them"
+            .to_owned(),
     }
 }
 

@@ -1,11 +1,12 @@
-//! A Parquet data set, partitioned by sequence as Hive does it: `sequence=NAME/RADAR.parquet`, a row per detection.
+//! A Parquet data set, partitioned by sequence as Hive does it: `sequence=NAME/RADAR.parquet`, a row per detection. All
+//! files have the same columns.
 
-use super::Writer;
-use super::columns::table_columns;
+use super::common_columns::CommonColumns;
 use super::labelled::LabelledSequence;
+use super::{Contents, Writer};
 use crate::error::DataError;
 use crate::result::schema::SCAN;
-use crate::result::{Column, GROUP_ROWS, Layout, OutFolder, Table, Values, checked, written};
+use crate::result::{Column, Component, GROUP_ROWS, Layout, OutFolder, Table, Values, checked, written};
 use parquet::file::writer::SerializedFileWriter;
 use std::fs::{self, File};
 use std::path::Path;
@@ -15,20 +16,30 @@ use std::sync::Arc;
 static RADAR: &Column = &SCAN[0];
 
 /// Writes the data set.
-pub(super) struct Parquet;
+pub(super) struct Parquet {
+    columns: CommonColumns,
+}
+
+impl Parquet {
+    /// A data set of these contents.
+    pub(super) fn new(contents: &Contents) -> Result<Self, DataError> {
+        Ok(Self { columns: CommonColumns::new(contents)? })
+    }
+}
 
 impl Writer for Parquet {
     fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let partition = format!("sequence={}", partition(sequence.name()));
         let folder = folder.folder(&checked("sequence, as a partition's name", &partition)?);
         fs::create_dir_all(folder.path()).map_err(DataError::io(folder.path()))?;
+        let files = file_names(&sequence.names.radars);
         for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
-            let file = folder.file(&sequence.names.radars[radar].and(".parquet"));
+            let file = folder.file(&files[radar].and(".parquet"));
             let radar_name = sensor.name.as_str().into();
             let mut rows = RadarFile { file: &file, radar: radar_name, rows: None, writer: None };
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
-                rows.append(table_columns(sequence, &labelled)?)?;
+                rows.append(self.columns.table(sequence, &labelled)?)?;
             }
             rows.finish()?;
         }
@@ -42,6 +53,19 @@ fn partition(name: &str) -> String {
     name.bytes()
         .map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
         .collect()
+}
+
+/// How the files of radars are called, without their ending. Who reads a data set passes over files with an underscore
+/// or a dot in front: before such a name stands `radar`, as often as it takes to be unlike all others.
+fn file_names(radars: &[Component]) -> Vec<Component> {
+    let mut names = radars.to_vec();
+    for place in 0..names.len() {
+        let is_hidden = names[place].as_str().starts_with(['_', '.']);
+        while is_hidden && (names[place] == radars[place] || radars.contains(&names[place])) {
+            names[place] = names[place].after("radar");
+        }
+    }
+    names
 }
 
 /// The file of one radar; one that never scanned has none.
@@ -90,7 +114,17 @@ impl RadarFile<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::partition;
+    use super::*;
+
+    #[test]
+    fn no_file_is_passed_over_and_no_two_have_one_name() {
+        let named = |names: &[&str]| {
+            let radars: Vec<_> = names.iter().map(|name| Component::new(name).unwrap()).collect();
+            file_names(&radars).iter().map(|name| name.as_str().to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(named(&["front", "_r"]), ["front", "radar_r"]);
+        assert_eq!(named(&["radar_r", "_r", "__r"]), ["radar_r", "radarradar_r", "radar__r"]);
+    }
 
     #[test]
     fn names_are_escaped_as_in_addresses() {

@@ -53,11 +53,11 @@ fn cloud(table: &Table, vehicle_from_radar: &Transform) -> Vec<u8> {
     all
 }
 
-/// A name for each column, without the spaces that part them; one that another column has already gets longer.
+/// A name for each column, of characters that readers know; one that another column has already gets longer.
 fn field_names(columns: &[Column]) -> Vec<String> {
     let mut taken: BTreeSet<String> = columns.iter().map(|column| column.name.to_string()).collect();
     let mut free = |column: &Column| {
-        let mut name = column.name.replace(char::is_whitespace, "_");
+        let mut name = column.name.replace(|c| !is_plain(c), "_");
         if *name != *column.name {
             while !taken.insert(name.clone()) {
                 name.push('_');
@@ -66,6 +66,12 @@ fn field_names(columns: &[Column]) -> Vec<String> {
         name
     };
     columns.iter().map(&mut free).collect()
+}
+
+/// Whether readers take a character for part of a field's name. Spaces part names; at others pypcd4 stops reading the
+/// line, and takes the fields that it has for all.
+fn is_plain(c: char) -> bool {
+    c.is_alphanumeric() || "_-.?+*".contains(c)
 }
 
 /// PCD's letter for the kind of a column.
@@ -89,8 +95,10 @@ mod tests {
     use crate::result::schema::field;
 
     #[test]
-    fn fields_have_names_of_their_own_without_spaces() {
+    fn fields_have_names_of_their_own_that_readers_know() {
         let columns = ["my field", "x", "my\tfield", "my_field", "my_field_"].map(field);
         assert_eq!(field_names(&columns), ["my_field__", "x", "my_field___", "my_field", "my_field_"]);
+        let columns = ["m/s", "RCS [dBsm]", "m_s", "größe", "a-b.c?+*", "100%"].map(field);
+        assert_eq!(field_names(&columns), ["m_s_", "RCS__dBsm_", "m_s", "größe", "a-b.c?+*", "100_"]);
     }
 }
