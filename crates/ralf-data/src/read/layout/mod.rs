@@ -67,7 +67,8 @@ fn refuse_results(dataset: &Path) -> Result<(), DataError> {
 /// Whether a folder holds labels of sequences, such as their truth, and nothing of what was measured. One whose
 /// sequences can't be listed is taken for a recording, so that opening it tells why.
 pub(crate) fn holds_labels_alone(dataset: &Path) -> bool {
-    let is_measured = |folder: &PathBuf| [SENSORS, ODOMETRY, POSES].iter().any(|name| folder.join(name).exists());
+    let is_measured =
+        |folder: &PathBuf| [SENSORS, ODOMETRY, POSES].iter().any(|name| folder.join(name).exists());
     folders(&dataset.join(SEQUENCES)).is_ok_and(|folders| !folders.iter().any(is_measured))
 }
 
