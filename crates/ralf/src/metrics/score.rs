@@ -96,8 +96,8 @@ const MOST_STEPS: usize = 1 << 18;
 /// float32. The distance to the nearer end counts by its exponent, so steps are finer towards both.
 fn step(w: f64) -> u32 {
     let half = 0.5_f32.to_bits();
-    // `max` takes what is no number for 0.
-    let w = w.max(0.0).min(1.0);
+    // What is no number counts as 0.
+    let w = if w > 0.0 { w.min(1.0) } else { 0.0 };
     if w < 0.5 { (w as f32).to_bits() } else { 2 * half - ((1.0 - w) as f32).to_bits() }
 }
 
