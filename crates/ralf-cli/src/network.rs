@@ -191,8 +191,8 @@ fn fill(
         if computed.again > 0 {
             let images = counted(computed.again, "image");
             say(&format!(
-                "{what} of {name}: computed again of {images}, for what was stored was not made of them as they are, \
-                 or isn't known to be"
+                "{what} of {name}: computed again of {images}, for what was stored is damaged, was not made of them \
+                 as they are, or isn't known to be"
             ));
         }
         computed.without.iter().for_each(|image| say(&format!("no {what}: {name}: {image}")));

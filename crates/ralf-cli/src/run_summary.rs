@@ -6,7 +6,7 @@ use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
-use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::run::{CameraRecord, ImageRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 use ralf_data::views::Lacking;
 
 /// What to do where images have no depth.
@@ -78,17 +78,27 @@ fn unreadable_scans(sequence: &str, unreadable: &[UnreadableScan]) -> impl Itera
     })
 }
 
-/// For each camera with images that can't be read, the first of them: mostly all are alike.
 fn unusable_images(sequence: &str, cameras: &[CameraRecord]) -> impl Iterator<Item = String> {
-    cameras.iter().filter_map(move |camera| {
-        let mut images =
-            camera.images.iter().filter_map(|image| Some((image.image, image.problem.as_ref()?)));
-        let (first, reason) = images.next()?;
-        let others = match images.count() {
+    let problems = cameras.iter().map(|camera| {
+        let problem = |image: &ImageRecord| Some((image.image, image.problem.clone()?));
+        (camera.name.as_str(), camera.images.iter().filter_map(problem).collect::<Vec<_>>())
+    });
+    unusable("labelled without", sequence, problems)
+}
+
+/// For each camera with images that can't be read (their numbers, and why), the first of them: mostly all are alike.
+pub(crate) fn unusable<'a>(
+    what: &str,
+    sequence: &str,
+    cameras: impl Iterator<Item = (&'a str, impl AsRef<[(usize, String)]>)>,
+) -> impl Iterator<Item = String> {
+    cameras.filter_map(move |(camera, images)| {
+        let ((first, reason), others) = images.as_ref().split_first()?;
+        let others = match others.len() {
             0 => String::new(),
             others => format!(" and {}", counted(others, "other")),
         };
-        Some(format!("labelled without: {sequence} {} image {first}{others}: {reason}", camera.name))
+        Some(format!("{what}: {sequence} {camera} image {first}{others}: {reason}"))
     })
 }
 

@@ -102,10 +102,13 @@ impl Groups {
     /// A sequence with these causes follows. The first is none: where people have corrected the truth it has artifacts
     /// of which no file tells a cause.
     pub(crate) fn name_causes(&mut self, names: &[String]) {
-        for name in names.iter().skip(1) {
-            if self.causes.iter().all(|(known, _)| known != name) {
-                self.causes.push((name.clone(), [0; 2]));
-            }
+        names.iter().skip(1).for_each(|name| self.name_cause(name));
+    }
+
+    /// A cause may follow that no file names: people say their own.
+    pub(crate) fn name_cause(&mut self, name: &str) {
+        if self.causes.iter().all(|(known, _)| known != name) {
+            self.causes.push((name.to_owned(), [0; 2]));
         }
     }
 
@@ -231,5 +234,9 @@ mod tests {
         assert_eq!(groups.by_class(), [group("outlier", false, 2, 1), group("car", true, 2, 1), road]);
         assert_eq!(groups.by_cause(), [group("clutter", false, 1, 1), group("mirror", false, 1, 0)]);
         assert_eq!(Groups::default().by_cause(), []);
+        // People name a cause that no file does.
+        groups.name_cause("rain");
+        groups.add(&corrected, Some("rain"));
+        assert_eq!(groups.by_cause().last(), Some(&group("rain", false, 1, 0)));
     }
 }

@@ -6,11 +6,12 @@ use crate::findings::Findings;
 use crate::reasons::{self, Weight};
 use crate::scored::{COLUMNS, Origin, Scored};
 use crate::told::{self, Told};
-use crate::{Detections, Pictures, Report, ReportError};
+use crate::truth::Truth;
+use crate::{AsFarAsRead, Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
 use ralf_data::judge::Certainty;
 use ralf_data::result::{LabelledRun, LabelledSequence, RunRecord};
-use ralf_data::{Balance, Causes, Comparison, Corrections, DataError, GroundTruth, SequenceReader};
+use ralf_data::{Balance, Causes, Comparison, DataError, SequenceReader};
 use ralf_plot::Extent;
 
 /// Widths of the pictures, pixels: an overview's half, a scan.
@@ -44,8 +45,10 @@ pub(crate) struct Content {
     pub(crate) sequences: Vec<SequenceContent>,
     /// Sequences of the recording that are not labelled.
     pub(crate) without_labels: Vec<String>,
-    /// Scans whose corrections belong to another content.
-    pub(crate) orphaned: Vec<String>,
+    /// What labels are compared with.
+    pub(crate) truth: Truth,
+    /// LiDAR scans that the pictures lack, a sentence each.
+    pub(crate) drawn_without: Vec<String>,
 }
 
 /// One sequence.
@@ -100,27 +103,25 @@ impl Content {
         }
         let mut record = run.record().clone();
         record.sequences.retain(|sequence| names.contains(&sequence.name.as_str()));
-        let corrections = Corrections::of_recording(report.out, report.recording)?;
-        let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
-        let truth =
-            GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
-        let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
+        let truth = Truth::gather(report, &names)?;
+        let comparison = truth.comparison(report)?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
         let (mut sequences, mut evidence, mut classes) = (Vec::new(), Vec::new(), None);
-        let (mut told, mut reasons) = (Vec::new(), Vec::new());
+        let (mut told, mut reasons, mut drawn_without) = (Vec::new(), Vec::new(), Vec::new());
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
             let labelled = run.sequence(*reader)?;
-            let counted =
-                Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
+            let counted = Counted::gather(report, *reader, &labelled, &truth, &mut findings, &mut overall)?;
             evidence::add(&mut evidence, &labelled.tables)?;
             told::add(&mut told, &labelled.tables)?;
             reasons::add(&mut reasons, &labelled.tables)?;
             classes::add(&mut classes, &labelled.tables)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
-            let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
+            let as_read = AsFarAsRead::new(*reader);
+            let draw = |wanted| DrawnSequence::draw(&as_read, &labelled, &counted.uncertain, wanted);
             let drawn = wanted.map(draw).transpose()?;
+            drawn_without.extend(as_read.drawn_without());
             let name = reader.sequence().name.clone();
             sequences.push(SequenceContent { name, balance: counted.balance, drawn });
         }
@@ -139,7 +140,8 @@ impl Content {
             balance: overall.into(),
             sequences,
             without_labels,
-            orphaned,
+            truth,
+            drawn_without,
         })
     }
 }
@@ -158,20 +160,23 @@ impl Counted {
         report: &Report,
         reader: &dyn SequenceReader,
         labelled: &LabelledSequence,
-        truth: Option<&GroundTruth>,
+        truth: &Truth,
         findings: &mut Findings,
         overall: &mut Separation,
     ) -> Result<Self, ReportError> {
         let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
+        let Truth { labels: truth, corrections, .. } = truth;
+        let truth = truth.as_ref();
         let causes = truth.map_or_else(|| Causes::find(dataset, sequence), |truth| truth.causes(sequence))?;
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
         let certainty = Certainty::of(&labelled.settings);
-        let origin = Origin { sequence, rig: &labelled.rig, certainty, truth, causes: causes.as_ref() };
+        let origin =
+            Origin { sequence, rig: &labelled.rig, certainty, truth, causes: causes.as_ref(), corrections };
         let radar = first_radar(reader);
         let (mut balance, mut shares) = (Separation::default(), Vec::new());
         labelled.tables.each(&COLUMNS, |key, table| {
             let scan = origin.scored(key, table)?;
-            findings.add(&scan, causes.as_ref());
+            findings.add(&scan, causes.as_ref(), origin.said_causes(key)?);
             for scored in &scan {
                 balance.add(scored.w.into(), scored.plausible);
                 overall.add(scored.w.into(), scored.plausible);

@@ -31,17 +31,21 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Adds the detections of a scan.
-    pub(crate) fn add(&mut self, scan: &[Scored], causes: Option<&Causes>) {
+    /// Adds the detections of a scan. The causes that people `said`, by place in the scan and ascending, stand above
+    /// those that a file tells.
+    pub(crate) fn add(&mut self, scan: &[Scored], causes: Option<&Causes>, said: &[(u32, String)]) {
         let names = causes.map_or(&[][..], Causes::names);
-        for scored in scan {
+        said.iter().for_each(|(_, cause)| self.groups.name_cause(cause));
+        let mut said = said.iter().peekable();
+        for (row, scored) in (0_u32..).zip(scan) {
+            let by_people = said.next_if(|(point, _)| *point == row).map(|(_, cause)| cause);
             self.detections += 1;
             for (bit, count) in self.flags.iter_mut().enumerate() {
                 *count += u64::from(scored.flags >> bit & 1);
             }
             self.labelled[bin_of(scored.w)].add(scored.plausible);
             let cause = scored.cause.and_then(|code| names.get(usize::from(code)));
-            self.groups.add(scored, cause.map(String::as_str));
+            self.groups.add(scored, by_people.or(cause).map(String::as_str));
             let Some((_, truth)) = scored.truth else { continue };
             self.truly[bin_of(scored.w)].add(truth);
             self.confusion.add(truth, scored.plausible);

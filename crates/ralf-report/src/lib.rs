@@ -23,12 +23,15 @@ mod reasons;
 mod scored;
 mod settings_map;
 mod told;
+mod truth;
+mod unread;
 
 pub use choice::{one_below, one_of};
 pub use error::ReportError;
 pub use number::{counted, grouped, listed};
 pub use pictures::{Detections, Pictures, mark_label};
 pub use realism::RealismPage;
+pub use unread::{AsFarAsRead, drawn_without};
 
 use content::Content;
 use ralf_data::Recording;
@@ -54,6 +57,10 @@ pub struct Page {
     /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not
     /// applied.
     pub orphaned: Vec<String>,
+    /// LiDAR scans that can't be read, whose points the pictures lack: a sentence each.
+    pub drawn_without: Vec<String>,
+    /// Where the truth comes from, where people corrected it, and what it lacks: a sentence each, with the file.
+    pub of_truth: Vec<String>,
 }
 
 impl Report<'_> {
@@ -67,7 +74,9 @@ impl Report<'_> {
         let content = Content::gather(self, progress)?;
         progress("writing the page");
         let html = page::render(&content)?;
-        Ok(Page { html, without_labels: content.without_labels, orphaned: content.orphaned })
+        let (orphaned, of_truth) = (content.truth.orphaned(), content.truth.lines());
+        let Content { without_labels, drawn_without, .. } = content;
+        Ok(Page { html, without_labels, orphaned, drawn_without, of_truth })
     }
 }
 

@@ -5,7 +5,7 @@ use ralf::label::{flag, truth_of};
 use ralf::sensors::Rig;
 use ralf_data::judge::Certainty;
 use ralf_data::result::{RadarScanKey, Table};
-use ralf_data::{Causes, DataError, GroundTruth, ScanId};
+use ralf_data::{Causes, Corrections, DataError, GroundTruth, ScanId};
 
 /// The columns that are needed.
 pub(crate) const COLUMNS: [&str; 7] = ["range", "azimuth", "w_opt", "w_tr", "w", "label", "flags"];
@@ -57,6 +57,8 @@ pub(crate) struct Origin<'a> {
     pub(crate) truth: Option<&'a GroundTruth>,
     /// Why artifacts are such.
     pub(crate) causes: Option<&'a Causes>,
+    /// What people said in a review.
+    pub(crate) corrections: &'a Corrections,
 }
 
 impl Origin<'_> {
@@ -65,11 +67,7 @@ impl Origin<'_> {
     /// # Errors
     /// Truth or causes of another size, or that can't be read.
     pub(crate) fn scored(&self, key: &RadarScanKey, table: &Table) -> Result<Vec<Scored>, ReportError> {
-        let scan = ScanId {
-            sequence: self.sequence.to_owned(),
-            radar: key.radar.to_string(),
-            scan: u32::try_from(key.scan).unwrap_or(u32::MAX),
-        };
+        let scan = self.scan_of(key);
         let truths = self.truths(&scan, table.len())?;
         let codes = self.causes.map(|causes| causes.of_scan(&scan, table.len())).transpose()?.flatten();
         let radar = self.rig.radars.iter().find(|radar| *radar.name == *key.radar);
@@ -94,6 +92,22 @@ impl Origin<'_> {
             }
         };
         Ok((0..table.len()).map(scored).collect())
+    }
+
+    /// Why detections of a scan are artifacts, where people said it: by their places in the scan, ascending.
+    ///
+    /// # Errors
+    /// Corrections of several contents of the scan.
+    pub(crate) fn said_causes(&self, key: &RadarScanKey) -> Result<&[(u32, String)], ReportError> {
+        Ok(self.corrections.causes(&self.scan_of(key))?)
+    }
+
+    fn scan_of(&self, key: &RadarScanKey) -> ScanId {
+        ScanId {
+            sequence: self.sequence.to_owned(),
+            radar: key.radar.to_string(),
+            scan: u32::try_from(key.scan).unwrap_or(u32::MAX),
+        }
     }
 
     /// The classes that the truth gives a scan's detections; `None` where it has no such scan.

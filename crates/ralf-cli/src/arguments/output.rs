@@ -10,6 +10,8 @@ use std::path::Path;
 
 /// What people draw and read, and lay into a folder beside what belongs there.
 const PAGES: [&str; 2] = ["png", "html"];
+/// What a page begins with.
+const PAGE: &[u8] = b"<!DOCTYPE html>";
 /// What an SQLite database begins with.
 const SQLITE: &[u8; 16] = b"SQLite format 3\0";
 
@@ -43,6 +45,20 @@ pub(crate) fn check_model(argument: &str, file: &Path, read_only: &[&Path]) -> a
         file.display()
     ))
     .into())
+}
+
+/// The same of a page: any text but a page is kept, such as settings.
+pub(crate) fn check_page(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+    check_output(argument, file, read_only)?;
+    let mut head = Vec::new();
+    let read = File::open(file).and_then(|file| file.take(PAGE.len() as u64).read_to_end(&mut head));
+    // What can't be read is replaced all the same where it may be.
+    if read.is_err() || head.is_empty() || head.eq_ignore_ascii_case(PAGE) {
+        return Ok(());
+    }
+    let expected = "expected nothing yet, or a page, found another file";
+    let what_to_do = "which would be lost: move it away, or choose another name";
+    Err(UsageError(format!("{argument}: {}: {expected}, {what_to_do}", file.display())).into())
 }
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
@@ -137,6 +153,20 @@ mod tests {
             assert!(check(name).is_err_and(|error| error.contains("nothing is lost")), "{name}");
         }
         own.iter().for_each(|name| assert_eq!(check(name), Ok(()), "{name}"));
+    }
+
+    #[test]
+    fn a_page_takes_the_place_of_a_page_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        fs::write(place("page.html"), "<!doctype html><html lang=\"en\">").unwrap();
+        fs::write(place("empty.html"), "").unwrap();
+        fs::write(place("tuned.toml"), "[lidar]").unwrap();
+        let check = |name: &str| check_page("--output", &place(name), &[]).map_err(|error| error.to_string());
+        for name in ["page.html", "empty.html", "new.html"] {
+            assert_eq!(check(name), Ok(()), "{name}");
+        }
+        assert!(check("tuned.toml").unwrap_err().contains("tuned.toml: expected nothing yet, or a page"));
     }
 
     #[test]

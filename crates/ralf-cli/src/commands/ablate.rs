@@ -4,6 +4,7 @@ use super::search::{SearchArgs, name_what_is_left_out, tables};
 use crate::outcome::Outcome;
 use crate::text::{aligned, decimal, print};
 use clap::Args;
+use ralf::config::GroundModel;
 use ralf::metrics::{Rates, Scores};
 use ralf_data::{GroundTruth, Recording};
 use ralf_train::{JudgedVariant, Variant};
@@ -34,11 +35,11 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let base = search.base()?;
     let (recording, truth, mut outcome) = search.open(&base, &arguments.test)?;
     let mut variants = Variant::all(&base.method);
-    let has_depth = recording
-        .sequences
-        .iter()
-        .any(|reader| (0..reader.sequence().rig.cameras.len()).any(|camera| reader.has_depth(camera)));
-    variants.retain(|variant| has_depth || !variant.is_of_cameras());
+    let sensed = Sensed::by(&recording);
+    variants.retain(|variant| sensed.depth || !variant.is_of_cameras());
+    if !sensed.lidar {
+        keep_without_lidar(&mut variants);
+    }
     let mut judged = Vec::with_capacity(variants.len());
     // Those that share their mismatches follow each other, so that but those of one need be remembered.
     for group in variants.chunk_by(|a, b| a.matching_config() == b.matching_config()) {
@@ -49,9 +50,58 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     print(&if search.json {
         serde_json::to_string_pretty(&arguments.json(&judged))?
     } else {
-        arguments.page(&judged, has_depth)
+        arguments.page(&judged, &sensed)
     })?;
     Ok(outcome)
+}
+
+/// What there is beside the radars.
+struct Sensed {
+    lidar: bool,
+    /// Depth of any camera's images.
+    depth: bool,
+}
+
+impl Sensed {
+    fn by(recording: &Recording) -> Self {
+        let sequences = || recording.sequences.iter().map(|reader| (reader, reader.sequence()));
+        Self {
+            lidar: sequences()
+                .any(|(_, sequence)| sequence.times.lidars.iter().any(|times| !times.is_empty())),
+            depth: sequences().any(|(reader, sequence)| {
+                (0..sequence.rig.cameras.len()).any(|camera| reader.has_depth(camera))
+            }),
+        }
+    }
+
+    /// What nothing is told of, a line.
+    fn told(&self) -> &'static str {
+        match self {
+            Self { lidar: false, .. } => {
+                "\nNo LiDAR: nothing is told of LiDARs, of the ground that they see, and of cameras, whose depth they \
+                 scale\n"
+            }
+            Self { depth: false, .. } => "\nNo camera has depth: nothing is told of cameras\n",
+            Self { .. } => "",
+        }
+    }
+}
+
+/// Leaves out the variants that are one of those before them where there is no LiDAR: by what they say of LiDARs, of
+/// cameras, whose depth has no scale then, and of the ground, where that isn't taken for flat.
+fn keep_without_lidar(variants: &mut Vec<Variant>) {
+    let Some(paper) = variants.first().map(|variant| variant.config.clone()) else { return };
+    let mut known = Vec::new();
+    variants.retain(|variant| {
+        let mut config = variant.config.clone();
+        (config.lidar, config.camera) = (paper.lidar.clone(), paper.camera.clone());
+        if config.ground.model != GroundModel::Flat {
+            config.ground = paper.ground.clone();
+        }
+        let is_new = !known.contains(&config);
+        known.push(config);
+        is_new
+    });
 }
 
 impl AblateArgs {
@@ -80,7 +130,7 @@ impl AblateArgs {
     }
 
     /// For people.
-    fn page(&self, judged: &[JudgedVariant], has_depth: bool) -> String {
+    fn page(&self, judged: &[JudgedVariant], sensed: &Sensed) -> String {
         let columns = ["Accuracy", "F1 plausible", "to the paper's", "Mean IoU", "MCC", "F1 where tuned"];
         let mut rows = vec![["Variant"].iter().chain(&columns).map(|&text| text.to_owned()).collect()];
         for variant in judged {
@@ -96,12 +146,12 @@ impl AblateArgs {
             ];
             rows.push([variant.name.to_owned()].into_iter().chain(cells).collect());
         }
-        let cameras = if has_depth { "" } else { "\nNo camera has depth: nothing is told of cameras\n" };
         format!(
-            "Each variant tuned on {} ({}) and judged on {}, all detections together\n{cameras}\n{}",
+            "Each variant tuned on {} ({}) and judged on {}, all detections together\n{}\n{}",
             self.search.train.join(", "),
             self.search.told(),
             self.test.join(", "),
+            sensed.told(),
             aligned(&rows)
         )
     }

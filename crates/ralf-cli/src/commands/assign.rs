@@ -1,8 +1,7 @@
 //! `ralf assign`: who labels what.
 
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
-use anyhow::bail;
 use clap::Args;
 use ralf_data::result::{Component, SequenceRecord, read_record};
 use ralf_data::team::{Assignment, Share, alike, person};
@@ -43,10 +42,12 @@ pub(crate) struct AssignArgs {
 pub(crate) fn run(arguments: &AssignArgs) -> anyhow::Result<Outcome> {
     let people = &arguments.to;
     if let Some([one, other]) = alike(people.iter().map(Component::as_str)) {
-        bail!("--to: expected each name once, whatever the case, found `{one}` and `{other}`");
+        let expected = "expected each name once, whatever the case";
+        return Err(UsageError(format!("--to: {expected}, found `{one}` and `{other}`")).into());
     }
     if people.len() < 2 && arguments.twice > 0.0 {
-        bail!("--twice: expected two people or more, found one: nobody else could label its scans");
+        let found = "expected two people or more, found one: nobody else could label its scans";
+        return Err(UsageError(format!("--twice: {found}")).into());
     }
     let sequences = read_record(&arguments.out)?.sequences;
     let dealt = Assignment::deal(&sequences, people, arguments.twice, arguments.seed);

@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
 use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_lacking};
 use crate::text::{grouped, print};
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use ralf_data::Settings;
 use ralf_data::many::{self, Job};
@@ -179,6 +179,10 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
 
 /// A recording that can't be put together is named, and costs the others nothing.
 fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
+    let out = &arguments.out;
+    if !out.try_exists().with_context(|| out.display().to_string())? {
+        bail!("{}: expected what `ralf cluster plan` wrote, found no such folder", out.display());
+    }
     let folders = many::planned(&arguments.out)?;
     if folders.is_empty() {
         bail!("{}: expected what `ralf cluster plan` wrote, found nothing", arguments.out.display());

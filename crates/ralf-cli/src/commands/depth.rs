@@ -3,6 +3,8 @@
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::network::{DepthModelArgs, all_images, fill_depth, store_folder, without_links};
 use crate::outcome::{Outcome, UsageError};
+use crate::progress::say;
+use crate::run_summary::unusable;
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
 use clap::Args;
@@ -17,7 +19,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has RALF's own layout, else in the same \
 tree below the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not \
-computed again, unless it was made of another image or of other views of it, or nothing beside it tells of which. \
+computed again, unless it is damaged, or was made of another image or of other views of it, or nothing beside it \
+tells of which. \
 Where depth lies of which nothing tells whose it is (no depth.toml), none is added.
 
 Examples:
@@ -72,6 +75,8 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
         for reader in &recording.sequences {
             let found =
                 check_scalings(reader.as_ref(), &settings.method).map_err(anyhow::Error::from_boxed)?;
+            let left_out = found.iter().map(|check| (check.camera.as_str(), check.unusable.as_slice()));
+            unusable("left out", &reader.sequence().name, left_out).for_each(|line| say(&line));
             checks.push((reader.sequence().name.clone(), found));
         }
         print(&if arguments.json { json(&checks)? } else { table(&checks) })?;

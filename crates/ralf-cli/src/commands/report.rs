@@ -1,6 +1,6 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::arguments::{ChangedArgs, DatasetArgs, check_output};
+use crate::arguments::{ChangedArgs, DatasetArgs, check_page};
 use crate::corrections::say_orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
@@ -37,7 +37,7 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
-    check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
+    check_page("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
     let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let report = Report {
         recording: &recording,
@@ -48,6 +48,7 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     let page = report.page(&|step| progress.tell(step.to_owned()))?;
     drop(progress);
     ralf_data::write_named(&arguments.output, page.html.as_bytes())?;
+    page.of_truth.iter().chain(&page.drawn_without).for_each(|line| say(line));
     say(&format!("wrote {}", arguments.output.display()));
     let outcome = say_orphaned(&page.orphaned);
     say_without("labels", &page.without_labels);

@@ -2,7 +2,7 @@
 
 pub(super) mod compare;
 
-use crate::arguments::{check_output, threads};
+use crate::arguments::{check_page, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::sequences::{IsThere, write_missing};
 use anyhow::Context;
@@ -158,7 +158,7 @@ impl SimulateArgs {
     fn compare_with(&self, real: &Path) -> anyhow::Result<Outcome> {
         if let Some(page) = &self.output {
             let read_only: Vec<&Path> = [real].into_iter().chain(self.with.as_deref()).collect();
-            check_output("--output", page, &read_only)?;
+            check_page("--output", page, &read_only)?;
         }
         let told = Told { page: self.output.as_deref(), json: self.json };
         let recording = ralf_data::open(real, None)?;

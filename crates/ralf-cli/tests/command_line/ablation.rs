@@ -60,3 +60,28 @@ fn without_a_camera_nothing_is_told_of_cameras() {
     let with = names(&ablate(&dataset.with_camera(3), "2"));
     assert_eq!(with.len(), without.len() + 4, "{with:?}");
 }
+
+#[test]
+fn without_a_lidar_nothing_is_told_of_lidars() {
+    let dataset = Dataset::of(&Shape { sequences: &["00", "01"], ..Shape::default() }).with_camera(3);
+    for sequence in ["00", "01"] {
+        let folder = format!("{}/sequences/{sequence}", dataset.path);
+        let toml = std::fs::read_to_string(format!("{folder}/sequence.toml")).unwrap();
+        let (before, after) = toml.split_once("[[lidar]]").unwrap();
+        let after = after.find("[[camera]]").map_or("", |at| &after[at..]);
+        std::fs::write(format!("{folder}/sequence.toml"), format!("{before}{after}")).unwrap();
+        std::fs::remove_dir_all(format!("{folder}/lidar_top")).unwrap();
+    }
+    let asked = ["ablate", &dataset.path, "--train", "00", "--test", "01", "--trials", "2", "--quiet"];
+    ralf(asked).exits(0).prints(["No LiDAR: nothing is told of LiDARs", "paper", "tracking.sources=all"]);
+    let found = ablate(&dataset, "2");
+    let names: Vec<&str> = found["variants"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|variant| variant["name"].as_str().unwrap())
+        .collect();
+    let told =
+        ["paper", "without tracking", "tracking.sources=all", "tracking.dynamic=true", "ground.model=flat"];
+    assert_eq!(names, told);
+}

@@ -33,7 +33,8 @@ fn three_steps_make_what_one_command_makes() {
 #[test]
 fn a_folder_that_nobody_planned_is_refused() {
     let dataset = Dataset::of(&Shape::default());
-    ralf(["cluster", "assemble", &dataset.out]).exits(1).says(["expected what `ralf cluster plan` wrote"]);
+    let assembled = ralf(["cluster", "assemble", &dataset.out]).exits(1);
+    assembled.says(["expected what `ralf cluster plan` wrote, found no such folder"]);
     ralf(["cluster", "label", &dataset.out, "--task", "0"]).exits(1).says(["tasks.jsonl"]);
     ralf(["cluster", "plan", "-o", &dataset.out]).exits(2);
 }

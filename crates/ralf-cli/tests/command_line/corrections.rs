@@ -176,9 +176,9 @@ fn agreement_is_of_the_scans_alone_that_were_dealt() {
 fn work_is_dealt_once_and_what_people_did_is_told() {
     let dataset = labelled();
     let deal = |people: &str, twice: &str| ralf(["assign", &dataset.out, "--to", people, "--twice", twice]);
-    deal("ada", "0.5").exits(1).says(["--twice: expected two people or more"]);
-    deal("ada,ada", "0").exits(1).says(["--to: expected each name once"]);
-    deal("ada,Ada", "0").exits(1).says(["whatever the case, found `ada` and `Ada`"]);
+    deal("ada", "0.5").exits(2).says(["--twice: expected two people or more"]);
+    deal("ada,ada", "0").exits(2).says(["--to: expected each name once"]);
+    deal("ada,Ada", "0").exits(2).says(["whatever the case, found `ada` and `Ada`"]);
     deal(&format!("ada,{}", "b".repeat(65)), "0").exits(2).says(["one of more than 64 characters"]);
     deal("ada,b/b", "0").exits(2).says(["one with a separator"]);
     deal("ada,bob", "2").exits(2).says(["expected a number from 0 to 1"]);
@@ -222,4 +222,53 @@ fn labelling_again_keeps_what_people_said() {
     let before = fs::read(&file).unwrap();
     ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.alpha=1.0"]).exits(0);
     assert_eq!(fs::read(&file).unwrap(), before);
+}
+
+/// What people said of a recording without any other truth: errors first, then all of a scan.
+#[test]
+fn a_report_tells_where_its_truth_comes_from_and_what_it_is_worth() {
+    let dataset = labelled();
+    for sequence in SEQUENCES {
+        fs::remove_dir_all(format!("{}/sequences/{sequence}/ground_truth", dataset.path)).unwrap();
+    }
+    let detections =
+        ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label")).len() as u32;
+    let edit = ScanEdit { radar: RADAR.into(), detections, points: vec![3], ..ScanEdit::default() };
+    let cause = Some("sprayed water".to_owned());
+    let stroke = Stroke { label: Some(1), cause, scans: vec![edit], ..Stroke::of_sequence("00") };
+    assert!(matches!(store(&dataset.out).apply(&stroke, &who()).unwrap(), Outcome::Done(_)));
+    let page = dataset.beside("report.html");
+    let report = || ralf(["report", &dataset.path, &dataset.out, "-o", &page]).exits(0);
+    let evaluate = || ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0);
+    let merged = "corrections.sqlite: 1 corrected detections and 0 reviewed scans are merged into the truth";
+    let partly = "corrections.sqlite: of 1 scan the truth is but what people corrected there";
+    report().says([merged, partly]);
+    evaluate().says([merged, partly]);
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(html.contains("They tell of 1 of ") && html.contains("1 corrected detections and 0 reviewed"));
+    assert!(html.contains("of 1 scan the truth is but") && html.contains("sprayed water"));
+    let machine = ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label"));
+    let key = ScanKey { sequence: "00".into(), radar: RADAR.into(), scan: 0 };
+    let mark = Mark { key, content: None, base: 1, machine, reviewed: true };
+    assert!(matches!(store(&dataset.out).mark(&mark, &who()).unwrap(), Outcome::Done(_)));
+    assert!(!report().stderr.contains("of 1 scan the truth is but"));
+    assert!(!evaluate().stderr.contains("of 1 scan the truth is but"));
+    assert!(fs::read_to_string(&page).unwrap().contains("1 reviewed scans are merged into the truth"));
+}
+
+#[test]
+fn nobody_agrees_with_a_copy_of_oneself() {
+    let dataset = labelled();
+    let detections =
+        ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label")).len();
+    say(&dataset.out, detections as u32, &[1, 99]);
+    let copy = dataset.beside("copy.sqlite");
+    fs::copy(Path::new(&dataset.out).join("corrections.sqlite"), &copy).unwrap();
+    for other in [&dataset.out, &copy] {
+        let asked = ["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", other];
+        ralf(asked)
+            .exits(1)
+            .prints_nothing()
+            .ends_with_error(["one store of corrections twice, or a copy of it"]);
+    }
 }

@@ -160,3 +160,22 @@ fn what_is_complete_asks_for_no_right_to_write() {
     label().exits(1).says(["depth of 00", "Permission denied"]);
     allow(0o755);
 }
+
+#[test]
+fn depth_that_is_damaged_is_computed_again_and_a_check_names_what_it_leaves_out() {
+    let dataset = dataset();
+    let model = brightness(&dataset, "net", 1.0, "depth");
+    let compute = || ralf(["depth", &dataset.path, "--depth-model", &model]).exits(0);
+    let check = || ralf(["depth", &dataset.path, "--check"]).exits(0).prints(["camera_front"]);
+    compute();
+    assert!(!check().stderr.contains("left out"));
+    let whole = fs::read(dataset.file("camera_front/depth/000001.npy")).unwrap();
+    dataset.cut("camera_front/depth/000001.npy", 100);
+    check().says(["left out: 00 camera_front image 1: ", "depth/000001.npy"]);
+    compute().says(["depth of 00: computed again of 1 image, for what was stored is damaged"]);
+    assert!(fs::read(dataset.file("camera_front/depth/000001.npy")).unwrap() == whole);
+    assert!(!check().stderr.contains("left out") && compute().stderr.is_empty());
+    let image = fs::read(dataset.file("camera_front/000002.png")).unwrap();
+    dataset.put("camera_front/000002.png", &image[..image.len() / 2]);
+    check().says(["left out: 00 camera_front image 2: "]);
+}

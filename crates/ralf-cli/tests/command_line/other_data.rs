@@ -120,6 +120,8 @@ fn corrections_are_not_applied_to_another_content() {
     };
     let stroke = Stroke { label: Some(30), scans: vec![edit(1), edit(2)], ..Stroke::of_sequence("00") };
     Store::open(&Path::new(&dataset.out).join(FILE)).unwrap().apply(&stroke, &Who::named("ada")).unwrap();
+    let other = dataset.beside("bob.sqlite");
+    Store::open(Path::new(&other)).unwrap().apply(&stroke, &Who::named("bob")).unwrap();
     let labels = |path: &str, scan: u32| {
         let bytes = fs::read(format!("{path}/sequences/00/labels/{scan:06}.label")).unwrap();
         bytes.as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)).collect::<Vec<_>>()
@@ -145,7 +147,7 @@ fn corrections_are_not_applied_to_another_content() {
     assert!(labels(&after, 2).iter().all(|label| *label == 1 || *label == 99));
     for asked in [
         &["evaluate", &dataset.out, "--truth", &dataset.path][..],
-        &["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &dataset.out],
+        &["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &other],
         &["report", &dataset.path, &dataset.out, "-o", &dataset.beside("report.html")],
     ] {
         Ran::of(&program().args(asked).output().unwrap()).exits(3).says([told]);

@@ -42,3 +42,31 @@ fn the_settings_of_a_report_make_the_same_labels() {
     fs::write(&settings, text).unwrap();
     label(&["--config", &settings]).exits(0).says(["nothing to do"]);
 }
+
+/// Labels go on without a LiDAR scan that can't be read, and so do their pictures.
+#[test]
+fn a_lidar_scan_that_cannot_be_read_costs_a_picture_its_points_alone() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    dataset.cut("lidar_top/000001.bin", 4);
+    ralf(["label", &dataset.path, "-o", &dataset.out])
+        .exits(0)
+        .says(["labelled without: 00 lidar_top scan 1"]);
+    let [page, picture] = ["report.html", "scan.png"].map(|name| dataset.beside(name));
+    let told = "drawn without: 00 lidar_top scan 1: ";
+    let report = || ralf(["report", &dataset.path, &dataset.out, "-o", &page]).exits(0);
+    let said = report().says([told, "lidar_top/000001.bin", "rows of 4 float32"]);
+    assert_eq!(said.stderr.matches(told).count(), 1, "{}", said.stderr);
+    assert!(fs::read_to_string(&page).unwrap().contains(told));
+    let plot = |more: &[&str]| {
+        let asked = ["plot", &dataset.path, &dataset.out, "-o", &picture];
+        Ran::of(&program().args(asked).args(more).output().unwrap()).exits(0)
+    };
+    plot(&["--scan", "1"]).says([told]);
+    plot(&["--scan", "1", "--camera", "camera_front"]).says([told]);
+    plot(&["--all"]).says([told]);
+    assert!(!plot(&["--scan", "0"]).stderr.contains(told));
+    let settings = dataset.beside("tuned.toml");
+    fs::write(&settings, "[lidar]\nbeta = 0.5\n").unwrap();
+    ralf(["report", &dataset.path, &dataset.out, "-o", &settings]).exits(2).says(["which would be lost"]);
+    assert!(fs::read_to_string(&settings).unwrap().starts_with("[lidar]"));
+}

@@ -160,6 +160,11 @@ pub(crate) fn recognised(path: &Path) -> Option<(&'static str, bool)> {
     Some((format.name, format.knows_truth))
 }
 
+/// Whether a folder or file is recognised as this format, whatever else it may be taken for.
+pub(crate) fn is_recognised_as(path: &Path, format: &str) -> bool {
+    FORMATS.iter().any(|known| known.name == format && (known.recognises)(path))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

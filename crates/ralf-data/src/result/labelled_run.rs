@@ -8,7 +8,8 @@ use super::{Component, Places, PlausibilityReader, Schema};
 use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader, open_with};
+use crate::read::open::{is_recognised_as, recognised};
+use crate::read::{Recording, SequenceReader, layout, open_selected, open_with};
 use crate::settings::Settings;
 use crate::tree::{DEPTH, RECORD, SEQUENCES};
 use ralf::config::Config;
@@ -39,19 +40,28 @@ pub struct LabelledSequence {
 }
 
 /// A run and the dataset that it labelled, as the truth about its labels may lie there: opened with the run's topics,
-/// and not yet compared with what was labelled. `None` where there are label files alone, where the dataset is no
-/// recording, and where it is one of another format: labels may be compared with truth that is kept in another.
+/// and not yet compared with what was labelled. `None` where there are label files alone, and where the dataset is
+/// of another format: labels may be compared with truth that is kept in another.
 ///
 /// # Errors
-/// A `run.json` that can't be read.
+/// A `run.json` that can't be read; a dataset that can't be opened, at least as far as it was labelled: what can't be
+/// read must not count as unchanged.
 pub fn labelled_recording(out: &Path, dataset: &Path) -> Result<Option<(LabelledRun, Recording)>, DataError> {
     if !files::exists(&out.join(RECORD))? {
         return Ok(None);
     }
     let run = LabelledRun::open(out)?;
-    let recording = open_with(dataset, None, &run.settings().topics).ok();
-    let recording = recording.filter(|recording| recording.format == run.record().format);
-    Ok(recording.map(|recording| (run, recording)))
+    let format = Some(run.record().format.as_str()).filter(|format| is_recognised_as(dataset, format));
+    let is_another = format.is_none() && recognised(dataset).is_some();
+    if is_another || layout::holds_labels_alone(dataset) {
+        return Ok(None);
+    }
+    let names: Vec<String> = run.record().sequences.iter().map(|sequence| sequence.name.clone()).collect();
+    let topics = &run.settings().topics;
+    // What was never labelled may be damaged, as it may be where sequences are labelled by name.
+    let recording = open_with(dataset, format, topics)
+        .or_else(|error| open_selected(dataset, format, topics, &names).map_err(|_| error))?;
+    Ok(Some((run, recording)))
 }
 
 /// A file that isn't what was labelled.

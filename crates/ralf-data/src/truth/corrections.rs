@@ -7,7 +7,7 @@ use crate::read::Recording;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
 use ralf::label::class_name;
-use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
+use ralf_corrections::{FILE, Reader, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -63,6 +63,15 @@ impl Corrections {
             scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
         scans.iter().try_for_each(|(scan, said)| check_labels(&file, scan, said))?;
         Ok(Self { file, scans, orphaned: Vec::new() })
+    }
+
+    /// A name that no other store has, and each of its copies; `None` where there is no store.
+    ///
+    /// # Errors
+    /// A file that is no store of corrections, or one of another version of the program.
+    pub fn id(&self) -> Result<Option<String>, DataError> {
+        let there = files::exists(&self.file)?;
+        Ok(if there { Some(Reader::open(&self.file)?.id()?) } else { None })
     }
 
     /// Refuses a place that was named for its corrections, a folder or a file, where there are none.
@@ -163,6 +172,23 @@ impl Corrections {
     /// How many scans are marked as reviewed.
     pub fn reviewed_scans(&self) -> usize {
         self.layers().filter(|layer| layer.accepted.is_some()).count()
+    }
+
+    /// Whether people corrected some of a scan's detections, but not all, and nobody has marked it as reviewed.
+    pub(super) fn is_partial(&self, scan: &ScanId) -> bool {
+        let is_partial = |layer: &ScanLayer| {
+            layer.accepted.is_none() && layer.corrections.len() < layer.content.detections as usize
+        };
+        self.scans.get(scan).is_some_and(|said| said.iter().all(is_partial))
+    }
+
+    /// Why detections of a scan are artifacts, as far as people said it: the causes by their places in the scan,
+    /// ascending.
+    ///
+    /// # Errors
+    /// Several contents of the scan, of which nothing says which is meant.
+    pub fn causes(&self, scan: &ScanId) -> Result<&[(u32, String)], DataError> {
+        Ok(self.layer(scan)?.map_or(&[], |layer| layer.causes.as_slice()))
     }
 
     fn layers(&self) -> impl Iterator<Item = &ScanLayer> {

@@ -7,6 +7,7 @@ mod corrections;
 mod effective;
 mod ground_truth;
 mod known;
+mod partly;
 mod scan_id;
 
 pub use bound::lost_sequences;
@@ -16,4 +17,5 @@ pub use content::scan_content;
 pub use corrections::{Corrections, told_orphaned};
 pub use effective::effective_labels;
 pub use ground_truth::GroundTruth;
+pub use partly::{partly_corrected, told_partly_corrected};
 pub use scan_id::ScanId;

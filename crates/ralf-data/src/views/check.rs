@@ -20,6 +20,8 @@ pub struct CameraCheck {
     /// Median over the views of their median relative error `|Z - Z_lidar| / Z_lidar`, for each of local, RANSAC,
     /// Huber.
     pub residuals: [Option<f64>; 3],
+    /// Images of which nothing can be said, for they or their depth can't be read or used: their numbers, and why.
+    pub unusable: Vec<(usize, String)>,
 }
 
 /// Calibrates every image that has depth with half of its LiDAR points, by each scaling, and measures the other half.
@@ -32,6 +34,7 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
             views: 0,
             samples: 0,
             residuals: [None; 3],
+            unusable: Vec::new(),
         };
         for (place, scaling) in SCALINGS.into_iter().enumerate() {
             let mut config = config.clone();
@@ -42,6 +45,9 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
             check.samples = 0;
             for image in 0..times.len() {
                 let moment = window.image(camera, image);
+                // Whatever the scaling, these are the same ones.
+                let problem = moment.iter().filter(|_| place == 0).find_map(|moment| moment.problem.clone());
+                check.unusable.extend(problem.map(|problem| (image, problem)));
                 let views = moment.iter().flat_map(|moment| &moment.views);
                 for report in views.map(|view| view.report).filter(|r| r.samples >= config.camera.min_samples)
                 {

@@ -51,13 +51,14 @@ impl fmt::Display for Unusable {
 pub struct Computed {
     /// The images of which the network says nothing for a reason of their own, in their order.
     pub without: Vec<Unusable>,
-    /// Of so many images the store held something that was made of another image or of other views, or of which isn't
-    /// known what it was made of: what they show now took its place.
+    /// Of so many images the store held something that was damaged, or made of another image or of other views, or of
+    /// which isn't known what it was made of: what they show now took its place.
     pub again: usize,
 }
 
 /// Computes and stores what a network says of the images (camera, number) that the store doesn't hold yet, several at a
-/// time. Beside each file lies what it was made of (`000000.from`): what was made of something else is made again.
+/// time. Beside each file lies what it was made of (`000000.from`): what was made of something else is made again, and
+/// so is what is damaged.
 ///
 /// What can't be stored is an error, and so is another process that writes to the store. The store becomes the
 /// network's with the first image of which it says something.
@@ -158,8 +159,8 @@ fn refuse_unlike_views<V: StoredView>(
 }
 
 impl Straightening<'_> {
-    /// Makes an image's file, unless it was made of this image and of these views. Returns whether it took the place of
-    /// another; or why nothing can be said of the image.
+    /// Makes an image's file, unless a whole one was made of this image and of these views. Returns whether it took the
+    /// place of another; or why nothing can be said of the image.
     fn fill<V: StoredView>(
         &self,
         reader: &dyn SequenceReader,
@@ -173,7 +174,8 @@ impl Straightening<'_> {
         };
         let note = note_of(file);
         let is_there = files::exists(file)?;
-        if is_there && files::read_text(&note, Kind::Settings).is_ok_and(|known| known == origin) {
+        let is_of_this = || files::read_text(&note, Kind::Settings).is_ok_and(|known| known == origin);
+        if is_there && is_of_this() && V::is_whole(file) {
             return Ok(Ok(false));
         }
         if is_there || files::exists(&note)? {

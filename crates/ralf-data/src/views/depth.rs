@@ -60,6 +60,10 @@ impl StoredView for DepthImage {
         size
     }
 
+    fn is_whole(file: &Path) -> bool {
+        npy::read_depth(file).is_ok()
+    }
+
     fn write(file: &Path, views: &[Self]) -> Result<(), DataError> {
         let bytes = npy::depth_bytes(views).ok_or_else(|| {
             DataError::content(

@@ -14,6 +14,9 @@ use std::path::Path;
 /// A folder of segmentations of one network.
 pub type SegmentationStore = Store<ClassImage>;
 
+/// The end of the last chunk of a PNG file, which has no content: its name and checksum.
+const PNG_END: &[u8] = b"IEND\xae\x42\x60\x82";
+
 /// `segmentation.toml`: which network made a store.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,6 +47,10 @@ impl StoredView for ClassImage {
     fn stacked([width, _]: [usize; 2]) -> [usize; 2] {
         // They stand one below the other.
         [width, 0]
+    }
+
+    fn is_whole(file: &Path) -> bool {
+        files::read(file).is_ok_and(|bytes| bytes.ends_with(PNG_END))
     }
 
     fn write(file: &Path, views: &[Self]) -> Result<(), DataError> {

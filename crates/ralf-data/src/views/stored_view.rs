@@ -24,6 +24,9 @@ pub trait StoredView: Send + Sized {
     /// What of a view's size (px: width and height) must be that of the other views in a file.
     fn stacked(size: [usize; 2]) -> [usize; 2];
 
+    /// Whether a file holds what was written: a copy that broke off, or a full disk, cuts files.
+    fn is_whole(file: &Path) -> bool;
+
     /// Stores an image's views in its file, whole or not at all.
     fn write(file: &Path, views: &[Self]) -> Result<(), DataError>;
 }

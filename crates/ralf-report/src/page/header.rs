@@ -15,7 +15,7 @@ pub(super) fn header(content: &Content) -> Markup {
             h1 { "Labels of " em { (content.dataset) } }
             p.lead {
                 "Every radar detection is rated by LiDAR, cameras and tracking, and labelled plausible or artifact. "
-                @if scores.is_some() { "Here is how well that agrees with the corrected labels." }
+                @if scores.is_some() { "Here is how well that agrees with the corrected labels. " (truth(content)) }
                 @else { "There are no corrected labels to compare with: here is what the labels say by themselves." }
             }
             dl.tiles {
@@ -42,6 +42,15 @@ pub(super) fn header(content: &Content) -> Markup {
                 a href="#provenance" { "Provenance" }
             }
         }
+    }
+}
+
+/// How much truth there is, and where it comes from.
+fn truth(content: &Content) -> Markup {
+    let known = content.findings.confusion.total();
+    html! {
+        "They tell of " (grouped(known)) " of " (grouped(content.findings.detections)) " detections."
+        @for sentence in &content.truth.told { " In corrections.sqlite: " (sentence) "." }
     }
 }
 

@@ -188,10 +188,11 @@ fn left_out(content: &Content) -> Markup {
             h3 { "Sequences without labels" }
             ul { @for sequence in &content.without_labels { li { (sequence) } } }
         }
-        @if !content.orphaned.is_empty() {
+        @let orphaned = content.truth.orphaned();
+        @if !orphaned.is_empty() {
             h3 { "Corrections that are not applied" }
             p { "They were made when these scans held other detections; they are kept." }
-            ul { @for scan in &content.orphaned { li { (scan) } } }
+            ul { @for scan in &orphaned { li { (scan) } } }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Pictures from above, to be picked by sequence and scan.
 
+use super::long::folded_if_long;
 use crate::content::{Content, DrawnSequence, ScanContent};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -18,6 +19,7 @@ pub(super) fn pictures(content: &Content) -> Markup {
                     code { "ralf plot" } " draws any."
                 }
             }
+            (lacking(content))
             div.picker hidden {
                 label { "Sequence " select #pick-sequence {
                     @for (index, sequence) in drawn.iter().enumerate() {
@@ -31,6 +33,13 @@ pub(super) fn pictures(content: &Content) -> Markup {
             @for sequence in &drawn { (of_sequence(sequence)) }
         }
     }
+}
+
+/// What the pictures lack.
+fn lacking(content: &Content) -> Markup {
+    let lines = &content.drawn_without;
+    let list = html! { ul { @for line in lines { li { (line) } } } };
+    html! { @if !lines.is_empty() { (folded_if_long(lines.len(), "LiDAR scans that can’t be read", list)) } }
 }
 
 fn of_sequence(sequence: &DrawnSequence) -> Markup {

@@ -2,6 +2,7 @@
 //! probabilities (docs/method.md, section 9).
 
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Precision and recall of plausible detections at one threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,27 +77,48 @@ impl Reliability {
 
 /// Detections with truth by their plausibility: what is an artifact at any `w` never passes, as in the method.
 ///
-/// Counted in fine steps of `w`, so that memory doesn't grow with the detections: those in one step pass together, and
-/// a threshold is told to 1/65,536.
+/// Thresholds are exact as long as there are at most [`MOST_STEPS`] of them. Of more, neighbours are put together and
+/// pass together, so that memory doesn't grow with the detections: by a part of what `w` is away from the nearer end
+/// of its range, for models are sure of most, and crowd there. Neither depends on the order of the detections.
 #[derive(Debug, Clone, Default)]
 pub struct Ranked {
-    /// By step of `w`: artifacts, and what is plausible. Empty until the first is added.
-    steps: Vec<[u64; 2]>,
+    /// By step of `w`: artifacts, and what is plausible.
+    steps: BTreeMap<u32, [u64; 2]>,
+    /// So many of the last bits of a step are left out.
+    coarseness: u32,
     positives: u64,
 }
 
-/// Steps of `w` from 0 to 1.
-const W_STEPS: usize = 1 << 16;
+/// Steps of `w` that are told apart at most: some 10 MiB.
+const MOST_STEPS: usize = 1 << 18;
+
+/// Where on the way from 0 to 1 a `w` lies, as a number that rises with it: all that can be told apart in a table of
+/// float32. The distance to the nearer end counts by its exponent, so steps are finer towards both.
+fn step(w: f64) -> u32 {
+    let half = 0.5_f32.to_bits();
+    // What is no number counts as 0.
+    let w = if w > 0.0 { w.min(1.0) } else { 0.0 };
+    if w < 0.5 { (w as f32).to_bits() } else { 2 * half - ((1.0 - w) as f32).to_bits() }
+}
 
 impl Ranked {
     /// Counts one more. `never_passes` tells that it is labelled an artifact whatever `w` is.
     pub fn add(&mut self, w: f64, never_passes: bool, truth: bool) {
         self.positives += u64::from(truth);
         if !never_passes {
-            self.steps.resize(W_STEPS, [0; 2]);
-            // What is below 0 or no number lies in the first step.
-            let step = (w * W_STEPS as f64) as usize;
-            self.steps[step.min(W_STEPS - 1)][usize::from(truth)] += 1;
+            self.steps.entry(step(w) >> self.coarseness).or_default()[usize::from(truth)] += 1;
+            while self.steps.len() > MOST_STEPS {
+                self.coarsen();
+            }
+        }
+    }
+
+    /// Puts each two neighbours together.
+    fn coarsen(&mut self) {
+        self.coarseness += 1;
+        for (step, [artifacts, plausible]) in std::mem::take(&mut self.steps) {
+            let counts = self.steps.entry(step >> 1).or_default();
+            *counts = [counts[0] + artifacts, counts[1] + plausible];
         }
     }
 
@@ -106,7 +128,7 @@ impl Ranked {
         if self.positives == 0 {
             return points;
         }
-        for [artifacts, plausible] in self.steps.iter().rev().filter(|counts| **counts != [0; 2]) {
+        for [artifacts, plausible] in self.steps.values().rev() {
             tp += plausible;
             passed += artifacts + plausible;
             let (recall, precision) = (tp as f64 / self.positives as f64, tp as f64 / passed as f64);
@@ -148,16 +170,77 @@ mod tests {
         assert!(ranked(&[(0.9, false, false)]).precision_recall().is_empty());
     }
 
-    /// Both ends of `w` and what lies beyond them have their step, and a million detections take no more room than ten.
+    /// What lies beyond the ends of `w` counts as its ends, and what is no number as 0.
     #[test]
-    fn the_curve_needs_no_more_memory_for_more_detections() {
+    fn both_ends_have_their_step() {
         let mut ranked = Ranked::default();
         for w in [1.0, 2.0, f64::NAN, -1.0, 0.0].into_iter().cycle().take(1000) {
             ranked.add(w, false, w >= 1.0);
         }
-        assert_eq!(ranked.steps.len(), W_STEPS);
         let found: Vec<_> = ranked.precision_recall().iter().map(|p| (p.recall, p.precision)).collect();
         assert_eq!(found, [(1.0, 1.0), (1.0, 0.4)]);
+    }
+
+    /// Pseudo-random float32 in [0, 1), the same each time.
+    fn uniform(count: u32) -> impl Iterator<Item = f32> {
+        let mut state = 1_u32;
+        std::iter::repeat_with(move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32
+        })
+        .take(count as usize)
+    }
+
+    /// Sorted by falling `w`, those that tie passing together.
+    fn by_sorting(seen: &[(f32, bool)]) -> f64 {
+        let mut sorted = seen.to_vec();
+        sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let positives = seen.iter().filter(|(_, truth)| *truth).count() as f64;
+        let (mut sum, mut tp, mut passed) = (0.0, 0.0, 0.0);
+        for ties in sorted.chunk_by(|a, b| a.0 == b.0) {
+            let plausible = ties.iter().filter(|(_, truth)| *truth).count() as f64;
+            (tp, passed) = (tp + plausible, passed + ties.len() as f64);
+            sum += plausible / positives * (tp / passed);
+        }
+        sum
+    }
+
+    fn counted(seen: &[(f32, bool)]) -> Ranked {
+        let mut ranked = Ranked::default();
+        seen.iter().for_each(|(w, truth)| ranked.add((*w).into(), false, *truth));
+        ranked
+    }
+
+    /// A model is sure of most: an eighth each lies within 1e-6 of an end, in the order of what is true, an eighth
+    /// ties, and the rest is spread.
+    #[test]
+    fn crowds_at_both_ends_are_ranked_as_by_sorting() {
+        let chances: Vec<f32> = uniform(40_000).collect();
+        let seen: Vec<(f32, bool)> = chances
+            .chunks_exact(2)
+            .enumerate()
+            .map(|(i, chance)| match i % 8 {
+                0 => (chance[0] * 1e-6, chance[1] < chance[0]),
+                1 => (1.0 - chance[0] * 1e-6, chance[1] > chance[0]),
+                2 => (0.25, chance[1] < 0.25),
+                _ => (chance[0], chance[1] < chance[0]),
+            })
+            .collect();
+        let found = average_precision(&counted(&seen).precision_recall());
+        assert!((found - by_sorting(&seen)).abs() < 1e-9, "{found} {}", by_sorting(&seen));
+    }
+
+    #[test]
+    fn more_detections_need_no_more_memory_and_their_order_changes_nothing() {
+        let chances: Vec<f32> = uniform(1_000_000).collect();
+        let mut seen: Vec<(f32, bool)> =
+            chances.chunks_exact(2).map(|chance| (chance[0], chance[1] < chance[0])).collect();
+        let ranked = counted(&seen);
+        assert!(ranked.coarseness > 0 && ranked.steps.len() <= MOST_STEPS);
+        let found = average_precision(&ranked.precision_recall());
+        assert!((found - by_sorting(&seen)).abs() < 1e-5, "{found} {}", by_sorting(&seen));
+        seen.reverse();
+        assert_eq!(counted(&seen).precision_recall(), ranked.precision_recall());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::corrections::say_orphaned;
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::{aligned, counted, decimal, grouped, print};
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use ralf::metrics::Confusion;
 use ralf_data::judge::{Agreement, disagreements, kappa, kappa_of_names, label_name};
 use ralf_data::result::read_record;
@@ -18,6 +18,7 @@ const NAMED: usize = 20;
 /// Prints what two people's corrections of one recording have in common. Both must be there.
 pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool) -> anyhow::Result<Outcome> {
     [out, other].into_iter().try_for_each(Corrections::check_there)?;
+    refuse_one_store(out, other)?;
     let [first, second] = [out, other].map(|out| Corrections::of_recording(out, recording));
     let (first, second) = (first?, of_dealt(out, other, second?)?);
     let outcome = say_orphaned(first.orphaned()).and(say_orphaned(second.orphaned()));
@@ -28,6 +29,20 @@ pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool
     }
     print(&if as_json { serde_json::to_string_pretty(&agreement.json())? } else { table(&agreement) })?;
     Ok(outcome)
+}
+
+/// Refuses one store that was named twice, or a copy of it: people agree with themselves.
+fn refuse_one_store(out: &Path, other: &Path) -> anyhow::Result<()> {
+    let [first, second] = [out, other].map(Corrections::open);
+    let (first, second) = (first?, second?);
+    ensure!(
+        first.id()? != second.id()?,
+        "--agreement: expected what two people said without each other, found one store of corrections twice, or a \
+         copy of it: {}, {}",
+        first.file().display(),
+        second.file().display()
+    );
+    Ok(())
 }
 
 /// Second labels of the scans alone that were dealt to whoever gave them: others are of no random sample.

@@ -1,6 +1,7 @@
 //! What a camera saw at the time of a scan.
 
 use super::PlotArgs;
+use crate::progress::say;
 use anyhow::{Context, bail, ensure};
 use ralf::config::{Config, nanoseconds};
 use ralf::scene::{
@@ -12,7 +13,7 @@ use ralf_data::Recording;
 use ralf_data::result::{LabelledRun, LabelledSequence};
 use ralf_data::views::DepthStore;
 use ralf_plot::{CameraPicture, MarkLabel, PixelDepth, ViewPicture, camera_picture};
-use ralf_report::{Pictures, mark_label, one_below, one_of};
+use ralf_report::{Pictures, drawn_without, mark_label, one_below, one_of};
 use std::path::PathBuf;
 
 /// The depth that is asked for, or that the labels were made with, or that labelling left in its folder; of several
@@ -124,7 +125,8 @@ impl Plot<'_> {
         let sequence = self.sequence();
         let t_ns = sequence.times.cameras[camera][image];
         let mut window = FrameWindow::new(self.pictures.reader, &self.labelled.rig, config);
-        let lidar = window.lidar_view(t_ns).map_err(anyhow::Error::from_boxed)?;
+        let (lidar, unread) = window.readable_lidar_view(t_ns).map_err(anyhow::Error::from_boxed)?;
+        unread.iter().for_each(|scan| say(&drawn_without(&sequence.name, scan)));
         Ok(Shot {
             camera: &sequence.rig.cameras[camera],
             t_ns,

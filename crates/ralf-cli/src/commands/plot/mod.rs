@@ -9,7 +9,7 @@ use clap::Args;
 use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader};
 use ralf_plot::Extent;
-use ralf_report::{Detections, Pictures};
+use ralf_report::{AsFarAsRead, Detections, Pictures};
 use std::path::{Path, PathBuf};
 
 /// Width of the picture of a scan, and of an overview's half, pixels.
@@ -79,11 +79,14 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     let reader = the_only(&recording)?;
     let labelled = run.sequence(reader)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
-    let pictures = Pictures { reader, tables: &labelled.tables, radar: arguments.radar.as_deref(), extent };
+    let as_read = AsFarAsRead::new(reader);
+    let pictures =
+        Pictures { reader: &as_read, tables: &labelled.tables, radar: arguments.radar.as_deref(), extent };
     let missing = pictures.missing(&labelled.record, arguments.scan)?;
     missing.iter().for_each(|scan| say(&format!("not labelled: {scan}")));
     let png = match (arguments.scan, &arguments.camera) {
         (Some(scan), Some(name)) => {
+            let pictures = Pictures { reader, ..pictures };
             camera::Plot { pictures, labelled: &labelled, arguments }.camera(scan, name)?
         }
         (Some(scan), None) => match &arguments.color_by {
@@ -92,6 +95,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         },
         (None, _) => pictures.overview(WIDTHS[1])?,
     };
+    as_read.drawn_without().iter().for_each(|line| say(line));
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::done_if(missing.is_empty()))

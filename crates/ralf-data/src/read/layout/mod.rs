@@ -18,7 +18,7 @@ pub(crate) use values::degrees;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
-use crate::tree::{RECORD, SENSORS, SEQUENCES};
+use crate::tree::{ODOMETRY, POSES, RECORD, SENSORS, SEQUENCES};
 use ralf::sensors::{DepthOutput, Rig};
 use std::path::{Path, PathBuf};
 
@@ -62,6 +62,14 @@ fn refuse_results(dataset: &Path) -> Result<(), DataError> {
     let is_result = dataset.join(RECORD).is_file()
         && folders(&dataset.join(SEQUENCES))?.iter().all(|folder| !folder.join(SENSORS).exists());
     if is_result { Err(DataError::content(dataset, "content", expected, found)) } else { Ok(()) }
+}
+
+/// Whether a folder holds labels of sequences, such as their truth, and nothing of what was measured. One whose
+/// sequences can't be listed is taken for a recording, so that opening it tells why.
+pub(crate) fn holds_labels_alone(dataset: &Path) -> bool {
+    let is_measured =
+        |folder: &PathBuf| [SENSORS, ODOMETRY, POSES].iter().any(|name| folder.join(name).exists());
+    folders(&dataset.join(SEQUENCES)).is_ok_and(|folders| !folders.iter().any(is_measured))
 }
 
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.

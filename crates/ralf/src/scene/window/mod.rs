@@ -209,8 +209,7 @@ impl<'a> FrameWindow<'a> {
     /// # Errors
     /// One of them that can't be read, and what [`Self::new`] names.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
-        self.usable()?;
-        let NearLidars { view, unreadable, .. } = self.near_lidars(t_ns);
+        let (view, unreadable) = self.readable_lidar_view(t_ns)?;
         match unreadable.into_iter().next() {
             Some(Unreadable { reason, .. }) => Err(reason.into()),
             None => Ok(view),

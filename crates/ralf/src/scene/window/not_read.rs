@@ -1,7 +1,9 @@
 //! What could not be read of a frame, also where it lies in things that frames share.
 
-use super::super::frame::{NotRead, SensorKind};
-use super::{FrameWindow, Key};
+use super::super::frame::{NotRead, SensorKind, Unreadable};
+use super::super::lidar::LidarView;
+use super::{FrameWindow, Key, NearLidars};
+use crate::sensors::SourceError;
 use std::mem;
 use std::sync::Arc;
 
@@ -30,5 +32,18 @@ impl FrameWindow<'_> {
     pub(super) fn noted<T>(&mut self, Noted { made, not_read }: Noted<T>) -> T {
         self.not_read.extend(not_read.iter().cloned());
         made
+    }
+
+    /// [`Self::lidar_view`] of those LiDAR scans that can be read, and the others.
+    ///
+    /// # Errors
+    /// A sequence that can't be used.
+    pub fn readable_lidar_view(
+        &mut self,
+        t_ns: i64,
+    ) -> Result<(Option<LidarView>, Vec<Unreadable>), SourceError> {
+        self.usable()?;
+        let NearLidars { view, unreadable, .. } = self.near_lidars(t_ns);
+        Ok((view, unreadable))
     }
 }
