@@ -40,7 +40,7 @@ pub struct LabelledSequence {
 }
 
 /// A run and the dataset that it labelled, as the truth about its labels may lie there: opened with the run's topics,
-/// and not yet compared with what was labelled. `None` where there are label files alone, and where the dataset is
+/// and not yet compared with what was labelled. `None` where nothing or label files alone are, and where the dataset is
 /// of another format: labels may be compared with truth that is kept in another.
 ///
 /// # Errors
@@ -53,7 +53,9 @@ pub fn labelled_recording(out: &Path, dataset: &Path) -> Result<Option<(Labelled
     let run = LabelledRun::open(out)?;
     let format = Some(run.record().format.as_str()).filter(|format| is_recognised_as(dataset, format));
     let is_another = format.is_none() && recognised(dataset).is_some();
-    if is_another || layout::holds_labels_alone(dataset) {
+    // Of a place where nothing is, truth is told to lack.
+    let is_nothing = dataset.metadata().is_err();
+    if is_nothing || is_another || layout::holds_labels_alone(dataset) {
         return Ok(None);
     }
     let names: Vec<String> = run.record().sequences.iter().map(|sequence| sequence.name.clone()).collect();
