@@ -1,5 +1,6 @@
 //! Evidence and truth of all scans with truth: what a model is fitted to (docs/learned.md).
 
+use crate::disk::label_file::{Label, read_labels};
 use crate::error::DataError;
 use crate::frames::{Chosen, Frames, ScanIndex, all_scans, each_of};
 use crate::not_used::NotUsed;
@@ -14,6 +15,7 @@ use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow, Unreadable};
 use ralf::sensors::Rig;
 use ralf_train::learning::{Known, TrainingTable, View};
+use std::path::Path;
 
 /// What is gathered from a recording, and how.
 pub struct TrainingGatherer<'a> {
@@ -23,6 +25,8 @@ pub struct TrainingGatherer<'a> {
     pub seed: u64,
     /// Whether detections of which nobody spoke are gathered, too, of scans of which somebody said something.
     pub unsaid: bool,
+    /// The output folder whose labels people saw when they spoke.
+    pub shown: Option<&'a Path>,
     /// One in so many scans of each radar of a simulated recording is learned from, at least one of each sequence; the
     /// others are what lies around. 0 is 1.
     pub every: usize,
@@ -142,6 +146,8 @@ fn is_chosen(scan: usize, scans: usize, every: usize) -> bool {
 #[derive(Debug, Clone, Copy)]
 struct True {
     plausible: Option<bool>,
+    /// How people saw it labelled.
+    shown: Option<bool>,
     cause: u8,
 }
 
@@ -220,6 +226,7 @@ impl<'a> Task<'a> {
                 view,
                 said: truth.plausible.is_some(),
                 plausible: truth.plausible.unwrap_or(false),
+                shown: truth.shown,
                 cause: truth.cause,
                 paper: label.w as f32,
                 paper_label: label.plausible,
@@ -246,12 +253,24 @@ impl<'a> Task<'a> {
         };
         if labels.len() != detections {
             let expected = format!("{detections} as in the scan");
-            let file = std::path::Path::new(&file);
+            let file = Path::new(&file);
             return Err(DataError::content(file, "number of labels", expected, labels.len().to_string()));
         }
         let cause = |row: usize| causes.get(row).copied().unwrap_or(0);
-        let rows = labels.iter().enumerate();
-        Ok(Ok(rows.map(|(row, label)| True { plausible: truth_of(label.id), cause: cause(row) }).collect()))
+        let shown = self.shown(&self.id(place), detections);
+        let told = |(row, label): (usize, &Label)| True {
+            plausible: truth_of(label.id),
+            shown: shown.get(row).copied().flatten(),
+            cause: cause(row),
+        };
+        Ok(Ok(labels.iter().enumerate().map(told).collect()))
+    }
+
+    /// How people saw a scan's detections labelled; nothing where its labels are gone.
+    fn shown(&self, id: &ScanId, detections: usize) -> Vec<Option<bool>> {
+        let labels = self.gatherer.shown.and_then(|out| read_labels(&id.label_file(out)).ok());
+        let labels = labels.filter(|labels| labels.len() == detections).unwrap_or_default();
+        labels.iter().map(|label| truth_of(label.id)).collect()
     }
 
     /// The numbers of the causes that a file tells; none where there is no file.

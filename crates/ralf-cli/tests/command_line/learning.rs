@@ -131,10 +131,11 @@ fn a_model_is_corrected_by_what_people_said_and_not_by_what_else_is_known() {
     };
     model(&own, &again).exits(1).ends_with_error(["before it was corrected", "`ralf learn "]);
     model(&own, &own).exits(2).ends_with_error(["--output", "--model"]);
-    ralf(["learn", &town, &town, "--model", &own, "-o", &again])
-        .exits(2)
-        .ends_with_error(["--from", "--correct"]);
+    ralf(["learn", &town, "--model", &own, "-o", &again]).exits(2).ends_with_error(["--from", "--correct"]);
     ralf(["learn", &town, "--from", &out, "--preset", "worlds", "-o", &again]).exits(2);
+    ralf(["learn", &town, "--from", &out, "--every", "4", "-o", &again]).exits(2);
+    let twice = format!("{town}/.");
+    ralf(["learn", &town, &twice, "--from", &out, "-o", &again]).exits(2).ends_with_error(["named twice"]);
     ralf(["learn", "--correct", "-o", &again]).exits(2);
 }
 

@@ -21,8 +21,15 @@ fn recording(seed: u64) -> Recording {
 
 fn table(jobs: usize) -> TrainingTable {
     let config = Config::default();
-    let gatherer =
-        TrainingGatherer { config: &config, seed: 1, unsaid: false, every: 1, jobs, observer: &Unwatched };
+    let gatherer = TrainingGatherer {
+        config: &config,
+        seed: 1,
+        unsaid: false,
+        shown: None,
+        every: 1,
+        jobs,
+        observer: &Unwatched,
+    };
     let mut table = gatherer.table();
     for (world, seed) in [("one", 1), ("two", 2)] {
         let left_out =

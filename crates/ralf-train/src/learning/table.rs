@@ -31,6 +31,8 @@ pub struct Known {
     pub said: bool,
     /// Whether it is truly plausible; of no meaning where nobody knows.
     pub plausible: bool,
+    /// How it was labelled when somebody spoke of its scan, where that is known.
+    pub shown: Option<bool>,
     /// Why it is an artifact, as a number of [`Cause`](ralf::label::Cause); 0 where it is none or nobody knows.
     pub cause: u8,
     /// `w` of the paper's method.

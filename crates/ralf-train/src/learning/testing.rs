@@ -29,6 +29,7 @@ pub(super) fn table(scans: u32, detections: usize) -> TrainingTable {
                 view: View::Whole,
                 said: true,
                 plausible,
+                shown: None,
                 cause,
                 paper: random.random(),
                 paper_label: random.random(),

@@ -12,7 +12,8 @@ use ralf_data::{GroundTruth, Recording};
 use std::path::{Path, PathBuf};
 
 /// What belongs to models that are fitted anew.
-const ANEW: [&str; 4] = ["preset", "no_neighbours", "without_groups", "no_blanking"];
+const ANEW: [&str; 7] =
+    ["preset", "seeds", "scans", "every", "no_neighbours", "without_groups", "no_blanking"];
 
 /// Whether a model is corrected, which, and by what.
 #[derive(Debug, Args)]
@@ -52,7 +53,10 @@ impl CorrectArgs {
         if let Some(Model { corrected: Some(_), origin, .. }) = &model {
             let expected =
                 "expected a model as it was before it was corrected, so that nothing is learned twice";
-            bail!("--model: {expected}, found that of `{}`", origin.command);
+            bail!(
+                "--model: {expected}, found that of `{}`; leave --model out, or give the one that it began with",
+                origin.command
+            );
         }
         Ok(model)
     }

@@ -21,6 +21,7 @@ use ralf_train::learning::{
     CorrectedModel, Correcting, Fitting, NetParameters, Parameters, TrainingTable, correct as correct_model,
     fit,
 };
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
@@ -41,7 +42,7 @@ DATASET every sequence is one. A model is judged in each world by one that was f
 what is printed and stands in the model's file. The same recordings, settings and seed give the same file.
 
 With --from or --correct no model is fitted anew: the shipped one, or --model, learns what it gets wrong, in seconds. \
-What people left alone in a scan that they corrected counts a little, too, as the model has it. Each sequence is \
+What people left alone in a scan that they corrected counts a little, too, as it was labelled. Each sequence is \
 judged before, and after by corrections of the others alone.
 
 Examples:
@@ -104,7 +105,8 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
     let (every, unsaid) = (arguments.worlds.every(), begin.is_some());
-    let gatherer = TrainingGatherer { config, seed, unsaid, every, jobs, observer: &stages };
+    let shown = arguments.correct.from.as_deref();
+    let gatherer = TrainingGatherer { config, seed, unsaid, shown, every, jobs, observer: &stages };
     let mut table = gatherer.table();
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
     if arguments.worlds.are_asked() {
@@ -140,6 +142,10 @@ impl LearnArgs {
             };
             let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
             return Err(UsageError(format!("{expected}, found {found}")));
+        }
+        let places = self.datasets.iter().map(|place| place.canonicalize().unwrap_or_else(|_| place.clone()));
+        if places.collect::<BTreeSet<_>>().len() < self.datasets.len() {
+            return Err(UsageError("DATASET: expected each once, found one that is named twice".into()));
         }
         Ok(())
     }
@@ -218,7 +224,7 @@ impl LearnArgs {
             let world = |sequence: &str| match (is_one_of_several, self.correct.is_asked()) {
                 (false, _) => sequence.to_owned(),
                 (true, false) => name.clone(),
-                (true, true) => format!("{name}/{sequence}"),
+                (true, true) => format!("{}/{sequence}", dataset.display()),
             };
             let not_used = gatherer.add(table, &world, &recording, TrainingTruth::Said(&truth))?;
             outcome = not_used.iter().map(say_not_used).fold(outcome.and(all_applied), Outcome::and);

@@ -83,10 +83,9 @@ fn three(scores: &Scores) -> String {
 /// A table: each sequence before and after.
 pub(super) fn corrected_page(judged: &[Judged]) -> String {
     let how = match judged {
-        [_] => {
-            "by corrections of the other parts of it, four in all (which lie near: a new recording gains less)"
-        }
-        _ => "by corrections of the others",
+        [only] if only.after == Scores::default() => "(one scan alone was: nothing is left to judge by)",
+        [_] => "by what was said of other parts of it (which lie near: a new recording gains less)",
+        _ => "by what was said of others",
     };
     let mut page = format!(
         "What was said of each sequence, as the model labelled it before, and after it was corrected {how}.\n\

@@ -4,7 +4,7 @@
 //! `log odds = model + trees`. A model fitted anew to its worlds and to the corrections needs half an hour in place of
 //! seconds, and is worse: few corrections drown in many worlds (docs/learned-judged.md).
 //!
-//! Of a scan of which somebody said something, what they left alone counts, too, for what the model makes of it
+//! Of a scan of which somebody said something, what they left alone counts, too, as they saw it labelled
 //! ([`LEFT_ALONE`]). Who corrects errors alone would teach otherwise that everything is one.
 
 mod folds;
@@ -16,7 +16,7 @@ pub use judge::Judged;
 use super::boosting::{Bins, Examples, Grown, Parameters, boost};
 use super::fit::LearnError;
 use super::monotone::direction;
-use super::table::TrainingTable;
+use super::table::{Known, TrainingTable};
 use folds::Folds;
 use judge::judge;
 use ralf::config::LearnedConfig;
@@ -78,7 +78,7 @@ pub fn correct(
     if !table.known.iter().any(|known| known.said) {
         return Err(LearnError::NothingSaid);
     }
-    let says = Says::new(begin, table, &correcting.learned)?;
+    let says = Says::new(begin, table, correcting)?;
     let ground = Ground::new(begin, table, &says);
     let folds = Folds::new(table);
     // One without each part, and the last with all.
@@ -92,9 +92,10 @@ pub fn correct(
     let Some(Grown { forest, gains }) = grown.pop() else { return Err(LearnError::NothingSaid) };
     let parts: Vec<Forest> = grown.into_iter().map(|grown| grown.forest).collect();
     let judged = judge(table, &says, &folds, &parts, correcting.threshold);
+    let said = says.rows.pick((0..table.len()).filter(|row| table.known[*row].said));
     let mut model = begin.clone();
     for (place, (input, gain)) in model.inputs.iter_mut().zip(gains).enumerate() {
-        input.seen = seen_too(input.seen, &says.rows, place, gain as f32);
+        input.seen = seen_too(input.seen, &said, place, gain as f32);
     }
     model.corrected = Some(Corrected { forest, worlds: judged.iter().map(Judged::told).collect() });
     model.origin = Origin { worlds: begin.origin.worlds.clone(), ..origin };
@@ -113,12 +114,14 @@ struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     fn new(model: &Model, table: &TrainingTable, says: &'a Says) -> Self {
-        let both = || table.known.iter().zip(&says.at_last);
+        // What they saw may be by another model or method than the one that learns.
+        let left_alone = |known: &Known, label: &bool| known.shown.unwrap_or(*label);
+        let both = || table.known.iter().zip(&says.labels);
         Self {
             rows: &says.rows,
             bins: Bins::new(&says.rows),
             target: both()
-                .map(|(known, says)| if known.said { known.plausible } else { *says > 0.0 })
+                .map(|(known, says)| if known.said { known.plausible } else { left_alone(known, says) })
                 .collect(),
             weights: both().map(|(known, _)| if known.said { 1.0 } else { LEFT_ALONE }).collect(),
             monotone: model.inputs.iter().map(|input| direction(&input.name)).collect(),

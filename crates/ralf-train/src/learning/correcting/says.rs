@@ -2,6 +2,7 @@
 
 use super::super::fit::LearnError;
 use super::super::table::{TrainingTable, places, scans_of};
+use super::Correcting;
 use ralf::config::LearnedConfig;
 use ralf::learned::{Model, Rows, Weighing};
 
@@ -17,33 +18,37 @@ pub(super) struct Says {
     /// The log odds of the plausibility that a detection gets at last, before its scan is asked how many movers are
     /// real: this is where corrections begin.
     pub(super) at_last: Vec<f64>,
+    /// Whether each is labelled plausible.
+    pub(super) labels: Vec<bool>,
     /// How plausibilities are made.
     pub(super) weighing: Weighing,
 }
 
 impl Says {
-    /// Asks a model about a table, with settings of how its answers are weighed.
+    /// Asks a model about a table.
     ///
     /// # Errors
     /// The first feature that the model reads and the table lacks.
     pub(super) fn new(
         model: &Model,
         table: &TrainingTable,
-        config: &LearnedConfig,
+        Correcting { learned: config, threshold, .. }: &Correcting,
     ) -> Result<Self, LearnError> {
         let columns = model.places_among(table.features.iter().map(|feature| feature.name))?;
         let rows = table.rows.pick_columns(&columns);
         let names = model.inputs.iter().map(|input| input.name.as_str());
         let by_itself = LearnedConfig { movers: false, ..config.clone() };
         let by_itself = Weighing::new(model, names.clone(), &by_itself);
-        let (mut log_odds, mut at_last) = (Vec::new(), Vec::new());
+        let weighing = Weighing::new(model, names, config);
+        let (mut log_odds, mut at_last, mut labels) = (Vec::new(), Vec::new(), Vec::new());
         for scan in scans_of(&table.known) {
             let here = rows.pick(scan.clone());
             let said = model.log_odds(&here, &places(&table.known[scan]));
             at_last.extend(by_itself.plausibilities(&here, &said).into_iter().map(in_log_odds));
+            labels.extend(weighing.plausibilities(&here, &said).into_iter().map(|w| w >= *threshold));
             log_odds.extend(said);
         }
-        Ok(Self { rows, log_odds, at_last, weighing: Weighing::new(model, names, config) })
+        Ok(Self { rows, log_odds, at_last, labels, weighing })
     }
 }
 

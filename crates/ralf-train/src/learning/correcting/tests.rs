@@ -35,20 +35,18 @@ fn is_other(table: &TrainingTable, row: usize) -> bool {
     table.rows.row(row)[1] > 0.4
 }
 
-fn corrected(table: &TrainingTable, jobs: usize) -> Result<CorrectedModel, LearnError> {
+fn correcting(jobs: usize) -> Correcting {
     let Config { learned, .. } = Config::default();
-    let correcting = Correcting { parameters: Correcting::trees(), threshold: 0.5, learned, jobs };
-    correct(begin(), table, &correcting, Origin::default(), &|_, _| {})
+    Correcting { parameters: Correcting::trees(), threshold: 0.5, learned, jobs }
+}
+
+fn corrected(table: &TrainingTable, jobs: usize) -> Result<CorrectedModel, LearnError> {
+    correct(begin(), table, &correcting(jobs), Origin::default(), &|_, _| {})
 }
 
 /// Whether each row is plausible to a model.
 fn labels(model: &Model, table: &TrainingTable) -> Vec<bool> {
-    Says::new(model, table, &Config::default().learned)
-        .unwrap()
-        .at_last
-        .into_iter()
-        .map(|says| says > 0.0)
-        .collect()
+    Says::new(model, table, &correcting(1)).unwrap().at_last.into_iter().map(|says| says > 0.0).collect()
 }
 
 /// How many rows of those asked for a model labels otherwise than is true.
@@ -101,10 +99,25 @@ fn who_corrects_errors_alone_changes_what_is_like_them() {
     );
 }
 
+/// Who corrects labels of a corrected model leaves alone what that one has right.
+#[test]
+fn what_is_left_alone_counts_as_it_was_shown() {
+    let truth = own(90);
+    let mut own = truth.clone();
+    for (row, known) in own.known.iter_mut().enumerate() {
+        (known.said, known.shown) = (row % 10 == 0, Some(known.plausible));
+    }
+    let found = corrected(&own, 2).unwrap().model;
+    own.known.iter_mut().for_each(|known| known.shown = None);
+    let without = corrected(&own, 2).unwrap().model;
+    let [shown, unknown] = [&found, &without].map(|model| wrong(model, &truth, is_other));
+    assert!(shown * 2 < unknown, "{shown} {unknown}");
+}
+
 #[test]
 fn where_people_say_what_the_model_says_labels_stay() {
     let mut own = table(60, 10);
-    let before = Says::new(begin(), &own, &Config::default().learned).unwrap().at_last;
+    let before = Says::new(begin(), &own, &correcting(1)).unwrap().at_last;
     own.known.iter_mut().zip(&before).for_each(|(known, says)| known.plausible = *says > 0.0);
     let after = labels(&corrected(&own, 2).unwrap().model, &own);
     // Where the model itself is nearly undecided it may turn.
@@ -155,9 +168,7 @@ fn what_was_not_seen_before_is_familiar_where_it_was_corrected() {
 fn silence_a_corrected_model_and_missing_evidence_are_refused() {
     let mut own = own(30);
     let once = corrected(&own, 1).unwrap().model;
-    let Config { learned, .. } = Config::default();
-    let correcting = Correcting { parameters: Correcting::trees(), threshold: 0.5, learned, jobs: 1 };
-    let twice = correct(&once, &own, &correcting, Origin::default(), &|_, _| {});
+    let twice = correct(&once, &own, &correcting(1), Origin::default(), &|_, _| {});
     assert_eq!(twice, Err(LearnError::AlreadyCorrected));
     let blind = own.without_groups(&[own.features[0].group.to_owned()]);
     assert!(matches!(corrected(&blind, 1), Err(LearnError::Use(_))));
