@@ -77,7 +77,7 @@ impl Reliability {
 
 /// Detections with truth by their plausibility: what is an artifact at any `w` never passes, as in the method.
 ///
-/// Thresholds are exact as long as there are at most [`MOST_STEPS`] of them. Of more, neighbours are put together and
+/// Thresholds are exact as long as there are at most 262,144 of them. Of more, neighbours are put together and
 /// pass together, so that memory doesn't grow with the detections: by a part of what `w` is away from the nearer end
 /// of its range, for models are sure of most, and crowd there. Neither depends on the order of the detections.
 #[derive(Debug, Clone, Default)]
