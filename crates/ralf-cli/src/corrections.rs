@@ -2,9 +2,9 @@
 
 use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::text::grouped;
 use anyhow::anyhow;
 use ralf_data::{Corrections, GroundTruth, Recording, told_orphaned};
+use ralf_report::told_corrections;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -51,12 +51,7 @@ pub(crate) fn said_truth(recording: &Recording, out: &Path) -> anyhow::Result<(G
 
 /// How much was said, and what becomes of it.
 fn told(corrections: &Corrections, are: &str) -> String {
-    format!(
-        "{}: {} corrected detections and {} reviewed scans are {are}",
-        corrections.file().display(),
-        grouped(corrections.corrected_detections() as u64),
-        grouped(corrections.reviewed_scans() as u64)
-    )
+    format!("{}: {}", corrections.file().display(), told_corrections(corrections, are))
 }
 
 /// Corrections that were asked for and aren't there, though others may be.

@@ -31,6 +31,7 @@ pub use error::ReportError;
 pub use number::{counted, grouped, listed};
 pub use pictures::{Detections, Pictures, mark_label};
 pub use realism::RealismPage;
+pub use truth::told_corrections;
 pub use unread::{AsFarAsRead, drawn_without};
 
 use content::Content;

@@ -4,6 +4,13 @@ use crate::Report;
 use crate::number::grouped;
 use ralf_data::{Comparison, Corrections, DataError, GroundTruth, partly_corrected, told_partly_corrected};
 
+/// How much was said in a review, and what becomes of it: a sentence without the last dot.
+pub fn told_corrections(corrections: &Corrections, are: &str) -> String {
+    let detections = grouped(corrections.corrected_detections() as u64);
+    let scans = grouped(corrections.reviewed_scans() as u64);
+    format!("{detections} corrected detections and {scans} reviewed scans are {are}")
+}
+
 /// The truth about the sequences that the page is about.
 pub(crate) struct Truth {
     /// `None` where nobody says anything.
@@ -26,11 +33,7 @@ impl Truth {
         let concerned = corrections.clone().of_scans(|scan| names.contains(&scan.sequence.as_str()));
         let mut told = Vec::new();
         if !concerned.is_empty() {
-            told.push(format!(
-                "{} corrected detections and {} reviewed scans are merged into the truth",
-                grouped(concerned.corrected_detections() as u64),
-                grouped(concerned.reviewed_scans() as u64)
-            ));
+            told.push(told_corrections(&concerned, "merged into the truth"));
         }
         let partly = labels.as_ref().map_or(0, |truth| partly_corrected(truth, &concerned));
         told.extend(told_partly_corrected(partly));

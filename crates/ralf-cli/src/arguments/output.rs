@@ -38,13 +38,14 @@ pub(crate) fn check_model(argument: &str, file: &Path, read_only: &[&Path]) -> a
         Ok(_) => "another text, or one that was changed since",
         Err(_) => "another file",
     };
-    let expected = "nothing yet, or a model as `ralf learn` writes it";
+    Err(would_be_lost(argument, file, "nothing yet, or a model as `ralf learn` writes it", found))
+}
+
+/// Why a file stays: it is another than what a command writes there.
+fn would_be_lost(argument: &str, file: &Path, expected: &str, found: &str) -> anyhow::Error {
     let what_to_do = "which would be lost: move it away, or choose another name";
-    Err(UsageError(format!(
-        "{argument}: {}: expected {expected}, found {found}, {what_to_do}",
-        file.display()
-    ))
-    .into())
+    let file = file.display();
+    UsageError(format!("{argument}: {file}: expected {expected}, found {found}, {what_to_do}")).into()
 }
 
 /// The same of a page: any text but a page is kept, such as settings.
@@ -56,9 +57,7 @@ pub(crate) fn check_page(argument: &str, file: &Path, read_only: &[&Path]) -> an
     if read.is_err() || head.is_empty() || head.eq_ignore_ascii_case(PAGE) {
         return Ok(());
     }
-    let expected = "expected nothing yet, or a page, found another file";
-    let what_to_do = "which would be lost: move it away, or choose another name";
-    Err(UsageError(format!("{argument}: {}: {expected}, {what_to_do}", file.display())).into())
+    Err(would_be_lost(argument, file, "nothing yet, or a page", "another file"))
 }
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or

@@ -169,7 +169,8 @@ struct Observed {
 fn log_odds(model: &Model, rows: &Rows, places: &[(usize, [f32; 3])]) -> Vec<f64> {
     let mut log_odds = model.plausible.log_odds(rows);
     let (of, places): (Vec<usize>, Vec<[f32; 3]>) = places.iter().copied().unzip();
-    let placed = model.log_odds(&rows.pick(of.iter().copied()), &places);
+    let mut placed: Vec<f64> = of.iter().map(|row| log_odds[*row]).collect();
+    model.add_to_trees(&mut placed, &rows.pick(of.iter().copied()), &places);
     of.into_iter().zip(placed).for_each(|(row, placed)| log_odds[row] = placed);
     log_odds
 }

@@ -10,6 +10,7 @@ use super::fitting::Fitting;
 use super::judge::{LeftOut, answered, judge};
 use super::monotone::direction;
 use super::net::{Scans, fit_net};
+use super::range::Range;
 use super::table::{Known, TrainingTable};
 use ralf::learned::net::Net;
 use ralf::learned::{Input, Model, Origin, Rows, Seen, UseError};
@@ -195,22 +196,10 @@ fn out_of_fold(table: &TrainingTable, folds: &[Fold]) -> Vec<f64> {
 fn inputs(table: &TrainingTable, gains: &[f64]) -> Vec<Input> {
     let mut inputs = Vec::new();
     for (place, feature) in table.features.iter().enumerate() {
-        let mut values: Vec<f32> = Vec::new();
-        for row in 0..table.len() {
-            let value = table.rows.row(row)[place];
-            if !value.is_nan() {
-                values.push(value);
-            }
-        }
-        values.sort_unstable_by(f32::total_cmp);
-        let at =
-            |share: f64| values.get(((values.len().max(1) - 1) as f64 * share).round() as usize).copied();
-        let seen = Seen {
-            low: at(0.001).unwrap_or(0.0),
-            high: at(0.999).unwrap_or(0.0),
-            absent: 1.0 - values.len() as f32 / table.len().max(1) as f32,
-            gain: gains[place] as f32,
-        };
+        let Range { observed, bounds } = Range::of(&table.rows, place);
+        let (low, high) = bounds.unwrap_or_default();
+        let absent = 1.0 - observed as f32 / table.len().max(1) as f32;
+        let seen = Seen { low, high, absent, gain: gains[place] as f32 };
         inputs.push(Input { name: feature.name.to_owned(), seen });
     }
     inputs

@@ -131,12 +131,7 @@ fn paper(table: &TrainingTable, rows: &[usize]) -> Scores {
 impl LeftOut {
     /// For the model's file.
     pub(super) fn told(&self) -> World {
-        let mut scores = Vec::new();
-        for (of, measured) in [("", &self.learned), ("paper_", &self.paper)] {
-            for (name, value) in measured.named() {
-                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
-            }
-        }
+        let scores = Scores::told([("", &self.learned), ("paper_", &self.paper)]);
         let (detections, plausible) = (self.detections as u64, self.plausible as u64);
         World { name: self.world.clone(), detections, plausible, scores }
     }

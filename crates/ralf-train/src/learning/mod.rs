@@ -27,6 +27,7 @@ mod monotone;
 mod net;
 mod opinion;
 mod random;
+mod range;
 mod scores;
 mod suite;
 mod table;

@@ -59,6 +59,17 @@ impl Scores {
         }
     }
 
+    /// Those that have a meaning, for a model's file: each with its name behind that of what is measured.
+    pub(super) fn told(measured: [(&str, &Self); 2]) -> Vec<(String, String)> {
+        let mut scores = Vec::new();
+        for (of, measured) in measured {
+            for (name, value) in measured.named() {
+                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
+            }
+        }
+        scores
+    }
+
     /// Each with its name.
     pub fn named(&self) -> [(&'static str, Option<f64>); 4] {
         [

@@ -133,15 +133,18 @@ impl Model {
     /// of them, and `places` where they lie in the vehicle frame, m.
     pub fn log_odds(&self, rows: &Rows, places: &[[f32; 3]]) -> Vec<f64> {
         let mut log_odds = self.plausible.log_odds(rows);
-        if let Some(net) = &self.net {
-            let heard = net.heard(&log_odds, rows, places);
-            log_odds.iter_mut().zip(heard).for_each(|(sum, heard)| *sum += heard);
-        }
-        if let Some(corrected) = &self.corrected {
-            let added = corrected.forest.log_odds(rows);
+        self.add_to_trees(&mut log_odds, rows, places);
+        log_odds
+    }
+
+    /// Adds to what the trees say of a scan's detections what net and corrections do; [`Self::log_odds`] of trees that
+    /// were asked before.
+    pub fn add_to_trees(&self, log_odds: &mut [f64], rows: &Rows, places: &[[f32; 3]]) {
+        let heard = self.net.as_ref().map(|net| net.heard(log_odds, rows, places));
+        let corrected = self.corrected.as_ref().map(|corrected| corrected.forest.log_odds(rows));
+        for added in heard.iter().chain(&corrected) {
             log_odds.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
         }
-        log_odds
     }
 
     /// All trees whose answers are added to the log odds, as one forest.

@@ -5,7 +5,7 @@ use super::super::table::{Known, TrainingTable, scans_of};
 use super::super::view::View;
 use super::folds::Folds;
 use super::says::Says;
-use ralf::learned::{Forest, Rows, World};
+use ralf::learned::{Forest, World};
 
 /// What a model is worth in a sequence, before and after it was corrected by what was said of others.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,12 +26,7 @@ pub struct Judged {
 impl Judged {
     /// For the model's file.
     pub(super) fn told(&self) -> World {
-        let mut scores = Vec::new();
-        for (of, measured) in [("", &self.after), ("before_", &self.before)] {
-            for (name, value) in measured.named() {
-                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
-            }
-        }
+        let scores = Scores::told([("", &self.after), ("before_", &self.before)]);
         let (detections, plausible) = (self.detections as u64, self.plausible as u64);
         World { name: self.world.clone(), detections, plausible, scores }
     }
@@ -53,10 +48,10 @@ pub(super) fn judge(
         }
         let (rows, mut log_odds) = (says.rows.pick(scan.clone()), says.log_odds[scan.clone()].to_vec());
         let (before, after) = &mut worlds[usize::from(known[0].world)];
-        before.extend(said(says, &rows, &log_odds, known));
+        before.extend(said(&says.plausibilities[scan.clone()], known));
         if let Some(forest) = parts.get(folds.of_row[scan.start]) {
             log_odds.iter_mut().zip(forest.log_odds(&rows)).for_each(|(sum, added)| *sum += added);
-            after.extend(said(says, &rows, &log_odds, known));
+            after.extend(said(&says.weighing.plausibilities(&rows, &log_odds), known));
         }
     }
     let named = table.worlds.iter().zip(worlds).filter(|(_, (before, _))| !before.is_empty());
@@ -70,11 +65,10 @@ pub(super) fn judge(
     named.map(judged).collect()
 }
 
-/// The plausibilities of a scan's detections of which somebody spoke.
-fn said(says: &Says, rows: &Rows, log_odds: &[f64], known: &[Known]) -> impl Iterator<Item = Scored> {
-    let plausibilities = says.weighing.plausibilities(rows, log_odds).into_iter();
-    plausibilities
-        .zip(known)
+/// The plausibilities of those of a scan's detections of which somebody spoke.
+fn said(plausibilities: &[f64], known: &[Known]) -> impl Iterator<Item = Scored> {
+    let of_all = plausibilities.iter().zip(known);
+    of_all
         .filter(|(_, known)| known.said)
-        .map(|(score, known)| Scored { score, plausible: known.plausible })
+        .map(|(score, known)| Scored { score: *score, plausible: known.plausible })
 }

@@ -16,6 +16,7 @@ pub use judge::Judged;
 use super::boosting::{Bins, Examples, Grown, Parameters, boost};
 use super::fit::LearnError;
 use super::monotone::direction;
+use super::range::Range;
 use super::table::{Known, TrainingTable};
 use folds::Folds;
 use judge::judge;
@@ -78,8 +79,8 @@ pub fn correct(
     if !table.known.iter().any(|known| known.said) {
         return Err(LearnError::NothingSaid);
     }
-    let says = Says::new(begin, table, correcting)?;
-    let ground = Ground::new(begin, table, &says);
+    let says = Says::new(begin, table, &correcting.learned)?;
+    let ground = Ground::new(begin, table, &says, correcting.threshold);
     let folds = Folds::new(table);
     // One without each part, and the last with all.
     let left_out: Vec<Option<usize>> = (0..folds.count).map(Some).chain([None]).collect();
@@ -113,15 +114,15 @@ struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    fn new(model: &Model, table: &TrainingTable, says: &'a Says) -> Self {
+    fn new(model: &Model, table: &TrainingTable, says: &'a Says, threshold: f64) -> Self {
         // What they saw may be by another model or method than the one that learns.
-        let left_alone = |known: &Known, label: &bool| known.shown.unwrap_or(*label);
-        let both = || table.known.iter().zip(&says.labels);
+        let left_alone = |known: &Known, w: &f64| known.shown.unwrap_or(*w >= threshold);
+        let both = || table.known.iter().zip(&says.plausibilities);
         Self {
             rows: &says.rows,
             bins: Bins::new(&says.rows),
             target: both()
-                .map(|(known, says)| if known.said { known.plausible } else { left_alone(known, says) })
+                .map(|(known, w)| if known.said { known.plausible } else { left_alone(known, w) })
                 .collect(),
             weights: both().map(|(known, _)| if known.said { 1.0 } else { LEFT_ALONE }).collect(),
             monotone: model.inputs.iter().map(|input| direction(&input.name)).collect(),
@@ -140,11 +141,7 @@ impl<'a> Ground<'a> {
 
 /// What a feature was like in training and is like in what was corrected: there the model has business, too.
 fn seen_too(seen: Seen, rows: &Rows, place: usize, gain: f32) -> Seen {
-    let mut values: Vec<f32> =
-        (0..rows.len()).map(|row| rows.row(row)[place]).filter(|value| !value.is_nan()).collect();
-    values.sort_unstable_by(f32::total_cmp);
-    let at = |share: f64| values.get(((values.len().max(1) - 1) as f64 * share).round() as usize).copied();
-    let (low, high) = (at(0.001).unwrap_or(seen.low), at(0.999).unwrap_or(seen.high));
+    let (low, high) = Range::of(rows, place).bounds.unwrap_or((seen.low, seen.high));
     Seen { low: seen.low.min(low), high: seen.high.max(high), absent: seen.absent, gain: seen.gain + gain }
 }
 

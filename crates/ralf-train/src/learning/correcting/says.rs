@@ -2,7 +2,6 @@
 
 use super::super::fit::LearnError;
 use super::super::table::{TrainingTable, places, scans_of};
-use super::Correcting;
 use ralf::config::LearnedConfig;
 use ralf::learned::{Model, Rows, Weighing};
 
@@ -18,21 +17,21 @@ pub(super) struct Says {
     /// The log odds of the plausibility that a detection gets at last, before its scan is asked how many movers are
     /// real: this is where corrections begin.
     pub(super) at_last: Vec<f64>,
-    /// Whether each is labelled plausible.
-    pub(super) labels: Vec<bool>,
+    /// The plausibility that each gets at last.
+    pub(super) plausibilities: Vec<f64>,
     /// How plausibilities are made.
     pub(super) weighing: Weighing,
 }
 
 impl Says {
-    /// Asks a model about a table.
+    /// Asks a model about a table, with settings of how its answers are weighed.
     ///
     /// # Errors
     /// The first feature that the model reads and the table lacks.
     pub(super) fn new(
         model: &Model,
         table: &TrainingTable,
-        Correcting { learned: config, threshold, .. }: &Correcting,
+        config: &LearnedConfig,
     ) -> Result<Self, LearnError> {
         let columns = model.places_among(table.features.iter().map(|feature| feature.name))?;
         let rows = table.rows.pick_columns(&columns);
@@ -40,15 +39,15 @@ impl Says {
         let by_itself = LearnedConfig { movers: false, ..config.clone() };
         let by_itself = Weighing::new(model, names.clone(), &by_itself);
         let weighing = Weighing::new(model, names, config);
-        let (mut log_odds, mut at_last, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut log_odds, mut at_last, mut plausibilities) = (Vec::new(), Vec::new(), Vec::new());
         for scan in scans_of(&table.known) {
             let here = rows.pick(scan.clone());
             let said = model.log_odds(&here, &places(&table.known[scan]));
             at_last.extend(by_itself.plausibilities(&here, &said).into_iter().map(in_log_odds));
-            labels.extend(weighing.plausibilities(&here, &said).into_iter().map(|w| w >= *threshold));
+            plausibilities.extend(weighing.plausibilities(&here, &said));
             log_odds.extend(said);
         }
-        Ok(Self { rows, log_odds, at_last, labels, weighing })
+        Ok(Self { rows, log_odds, at_last, plausibilities, weighing })
     }
 }
 

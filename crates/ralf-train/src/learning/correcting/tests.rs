@@ -46,7 +46,12 @@ fn corrected(table: &TrainingTable, jobs: usize) -> Result<CorrectedModel, Learn
 
 /// Whether each row is plausible to a model.
 fn labels(model: &Model, table: &TrainingTable) -> Vec<bool> {
-    Says::new(model, table, &correcting(1)).unwrap().at_last.into_iter().map(|says| says > 0.0).collect()
+    Says::new(model, table, &Config::default().learned)
+        .unwrap()
+        .at_last
+        .into_iter()
+        .map(|says| says > 0.0)
+        .collect()
 }
 
 /// How many rows of those asked for a model labels otherwise than is true.
@@ -117,7 +122,7 @@ fn what_is_left_alone_counts_as_it_was_shown() {
 #[test]
 fn where_people_say_what_the_model_says_labels_stay() {
     let mut own = table(60, 10);
-    let before = Says::new(begin(), &own, &correcting(1)).unwrap().at_last;
+    let before = Says::new(begin(), &own, &Config::default().learned).unwrap().at_last;
     own.known.iter_mut().zip(&before).for_each(|(known, says)| known.plausible = *says > 0.0);
     let after = labels(&corrected(&own, 2).unwrap().model, &own);
     // Where the model itself is nearly undecided it may turn.
