@@ -128,12 +128,14 @@ class Job:
         return settings
 
     def anywhere(self) -> Job:
-        """The same, with paths of what is read that lead to the same places from every folder."""
+        """The same, with paths that lead to the same places from every folder."""
         told = json.loads(self.told)
         motion = told["settings"].get("motion", {})
         if motion.get("trajectory"):
             motion["trajectory"] = anywhere(motion["trajectory"])
-        return replace(self, recording=anywhere(self.recording), told=json.dumps(told))
+        paths = {name: getattr(self, name) for name in ("recording", "out", "model", "depth", "segmentation")}
+        whole = {name: anywhere(path) for name, path in paths.items() if path is not None}
+        return replace(self, told=json.dumps(told), **whole)
 
 
 def job(

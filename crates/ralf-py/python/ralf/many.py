@@ -16,13 +16,16 @@ from pathlib import Path
 from typing import Any
 
 from ralf import _ralf, _told
-from ralf._jobs import Path_, Settings, above_0, job, utf8
+from ralf._jobs import Job, Path_, Settings, above_0, job, utf8
 from ralf._progress import Progress, listener
 from ralf._warnings import warn_of
 from ralf.run import Run
 
 SCANS = 2048
 """Radar scans of a task, if not said: some ten seconds of work for one core."""
+
+Done = tuple[list[str], list[str], list[str], list[str]]
+"""What `_ralf.assemble` tells: sequences it labelled, those asked for, what became of earlier results, warnings."""
 
 
 class Task(str):
@@ -96,14 +99,53 @@ def plan(
     found = Plan()
     above_0(scans, "scans")
     above_0(jobs, "jobs")
+    planned = jobs_of(
+        recordings,
+        out,
+        settings=settings,
+        method=method,
+        model=model,
+        depth=depth,
+        segmentation=segmentation,
+        evidence=evidence,
+        check=check,
+    )
+    for told in planned:
+        name = Path(told.out).name
+        try:
+            tasks, warnings = _ralf.plan(told, scans, jobs, listener(progress))
+        except _ralf.RalfError as error:
+            found.failed[name] = str(error)
+            continue
+        found.tasks += map(Task, tasks)
+        warn_of([f"{name}: {what}" for what in warnings])
+    return found
+
+
+def jobs_of(
+    recordings: Iterable[Path_] | Path_,
+    out: Path_,
+    *,
+    settings: Settings = None,
+    method: str | None = None,
+    model: Path_ | None = None,
+    depth: Path_ | None = None,
+    segmentation: Path_ | None = None,
+    evidence: bool = False,
+    check: bool = True,
+) -> list[Job]:
+    """The jobs of recordings, or of one, each with a folder of its own in `out`. Nothing of a recording is read.
+
+    Two recordings of one name, settings that are none, and paths that no plan can tell are refused.
+    """
     for name, place in (("model", model), ("depth", depth), ("segmentation", segmentation)):
         if place is not None:
             utf8(place, name)
     # The letters of a path are no recordings.
     given = [recordings] if isinstance(recordings, str | bytes | os.PathLike) else recordings
     places = [utf8(recording, "recordings") for recording in given]
-    for recording, folder in zip(places, _ralf.folders(places, utf8(out, "out")), strict=True):
-        told = job(
+    return [
+        job(
             recording,
             folder,
             settings=settings,
@@ -114,15 +156,8 @@ def plan(
             evidence=evidence,
             check=check,
         )
-        name = Path(folder).name
-        try:
-            tasks, warnings = _ralf.plan(told, scans, jobs, listener(progress))
-        except _ralf.RalfError as error:
-            found.failed[name] = str(error)
-            continue
-        found.tasks += map(Task, tasks)
-        warn_of([f"{name}: {what}" for what in warnings])
-    return found
+        for recording, folder in zip(places, _ralf.folders(places, utf8(out, "out")), strict=True)
+    ]
 
 
 def label_one(task: str, *, jobs: int | None = 1, progress: Progress = None) -> list[dict[str, Any]]:
@@ -142,16 +177,22 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
     for folder in _ralf.planned(os.fsdecode(out)):
         name = Path(folder).name
         try:
-            labelled, asked, earlier, warnings = _ralf.assemble(folder, jobs, listener(progress))
+            done = _ralf.assemble(folder, jobs, listener(progress))
         except _ralf.RalfError as error:
             found.failed[name] = str(error)
             continue
-        run = Run(folder, recording_of(folder))
-        run.labelled, run.warnings = labelled, warnings
-        told = [*earlier, *_told.warnings_of_run(run.record, asked, warnings)]
-        warn_of([f"{name}: {what}" for what in told])
-        found.runs[name] = run
+        found.runs[name], warnings = run_of(folder, done)
+        warn_of(warnings)
     return found
+
+
+def run_of(folder: Path_, done: Done) -> tuple[Run, list[str]]:
+    """The run of a recording that was put together, by what `_ralf.assemble` told, and what to warn of."""
+    labelled, asked, earlier, warnings = done
+    run = Run(folder, recording_of(folder))
+    run.labelled, run.warnings = labelled, warnings
+    told = [*earlier, *_told.warnings_of_run(run.record, asked, warnings)]
+    return run, [f"{run.out.name}: {what}" for what in told]
 
 
 def recording_of(out: Path_) -> str:
