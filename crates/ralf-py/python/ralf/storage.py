@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import os
+import sqlite3
+from contextlib import closing, suppress
 from datetime import datetime
 from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
 from typing import Any
+
+from ralf import _ralf
+from ralf._warnings import warn_of
 
 try:
     import fsspec
@@ -15,52 +22,202 @@ except ImportError as error:
 MARKER = "run.json"
 """Written last, and taken away first: who finds it finds all that it tells of."""
 
+DATABASE = ".sqlite"
+"""How the names of files end that hold what people said."""
+
+JOURNALS = ("-wal", "-shm", "-journal")
+"""How the names of what SQLite lays beside a database go on. It holds for that one file, and belongs to nobody else."""
+
+_Files = dict[PurePosixPath, tuple[str, dict[str, Any]]]
+"""By the place in what is staged: the name in the store, and what the store tells of it."""
+
+_Stamps = dict[str, list[int]]
+"""Size and time of files that were put somewhere, by their places."""
+
 
 def stage(url: str, folder: str | os.PathLike[str]) -> Path:
-    """Copy a recording into a folder of this machine. Returns where it lies.
+    """Copy a recording, or results, into a folder of this machine. Returns where it lies.
 
-    Files that are there with the same size and time are left alone, so that a second call copies what is new. The
-    times of files are those of the store, by which RALF knows a file again.
+    Files that are there with the same size and time are left alone, so that a second call copies what is new. What it
+    put there and the store has no more is removed, unless it has been changed; it is known by a hidden file beside the
+    copy, `.NAME.staged`. Other files there that the store lacks are left as they are, which is a warning. The times of
+    files are those of the store, by which RALF knows a file again.
+
+    Raises `FileNotFoundError` where the URL leads to nothing. A database of what people said is refused with a
+    `ValueError`, before anything is copied, where it has a journal in the store, which is half of it at most, and where
+    the store's would replace one in which something was said on this machine since.
     """
-    store, root = fsspec.core.url_to_fs(url)
-    root = root.rstrip("/")
+    store, root = _opened(url)
     place = Path(folder) / PurePosixPath(root).name
-    for name, told in sorted(store.find(root, detail=True).items()):
-        inside = PurePosixPath(name).relative_to(root) if name != root else PurePosixPath()
-        if ".." in inside.parts:
-            raise ValueError(f"{url}: expected names that lead nowhere else, found {name}")
-        file = place / inside
-        changed = _changed_ns(told)
-        if _is_there(file, told["size"], changed):
-            continue
-        file.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = file.with_name(f".{file.name}.part")
-        store.get_file(name, os.fspath(unfinished))
-        if changed is not None:
-            os.utime(unfinished, ns=(changed, changed))
-        unfinished.replace(file)
+    wanted = _found(url, store, root)
+    record = Path(folder) / f".{place.name}.staged"
+    put: _Stamps = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {}
+    _refuse_to_lose(place, wanted, put)
+    record.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        for gone in [inside for inside in put if PurePosixPath(inside) not in wanted]:
+            _take_away(place, gone, put.pop(gone))
+        for inside, (name, told) in wanted.items():
+            _fetch(store, name, place / inside, told)
+            put[str(inside)] = _stamp(place / inside)
+    finally:
+        _write(record, json.dumps(put))
+    warn_of(_others(url, place, wanted))
     return place
 
 
 def publish(out: str | os.PathLike[str], url: str) -> None:
-    """Copy results to a store, the marker last."""
+    """Copy results to a store, the marker last.
+
+    What people said is copied as SQLite knows it at that moment, a review that goes on among it, into one file without
+    a journal; journals that lie beside it in the store are removed. An `out` without the record of a finished labelling
+    is refused with a `RalfError`, a damaged database with a `ValueError`, both before the store is touched.
+    """
+    place = Path(out)
+    _ralf.record(place)
+    files = sorted(path.relative_to(place) for path in place.rglob("*") if path.is_file())
+    results = [file for file in files if not _is_hidden(file) and not _is_journal(file)]
+    with TemporaryDirectory() as scratch:
+        copies = {
+            file: _copy(place / file, Path(scratch) / str(number))
+            for number, file in enumerate(results)
+            if file.suffix == DATABASE
+        }
+        store, root = _opened(url)
+        _remove(store, f"{root}/{MARKER}")
+        for file in sorted(results, key=lambda file: file == Path(MARKER)):
+            target = f"{root}/{file.as_posix()}"
+            store.makedirs(store._parent(target), exist_ok=True)
+            if file in copies:
+                for journal in JOURNALS:
+                    _remove(store, target + journal)
+            store.put_file(os.fspath(copies.get(file, place / file)), target)
+
+
+def _opened(url: str) -> tuple[Any, str]:
+    """The store of a URL, and the place in it. What it holds now counts, not what it held when it was last asked."""
     store, root = fsspec.core.url_to_fs(url)
-    root = root.rstrip("/")
-    if store.exists(f"{root}/{MARKER}"):
-        store.rm_file(f"{root}/{MARKER}")
-    files = sorted(path for path in Path(out).rglob("*") if path.is_file())
-    results = [file for file in files if not any(part.startswith(".") for part in file.relative_to(out).parts)]
-    for file in sorted(results, key=lambda file: file.name == MARKER):
-        target = f"{root}/{file.relative_to(out).as_posix()}"
-        store.makedirs(store._parent(target), exist_ok=True)
-        store.put_file(os.fspath(file), target)
+    store.invalidate_cache()
+    return store, root.rstrip("/")
+
+
+def _found(url: str, store: Any, root: str) -> _Files:
+    """All files of a URL, but for journals that hold nothing."""
+    found: _Files = {}
+    for name, told in sorted(store.find(root, detail=True).items()):
+        inside = PurePosixPath(name).relative_to(root) if name != root else PurePosixPath()
+        if ".." in inside.parts:
+            raise ValueError(f"{url}: expected names that lead nowhere else, found {name}")
+        if not _is_journal(inside):
+            found[inside] = (name, told)
+        elif told["size"] > 0 and not inside.name.endswith("-shm"):
+            remedy = "end the review that is at work there, or publish it again"
+            raise ValueError(f"{url}: expected databases without journals, found {inside}: {remedy}")
+    if not found:
+        raise FileNotFoundError(f"{url}: expected a recording or results, found nothing")
+    return found
+
+
+def _refuse_to_lose(place: Path, wanted: _Files, put: _Stamps) -> None:
+    """Refuse to replace a database in which something was said since it was staged."""
+    for inside, (_, told) in wanted.items():
+        file = place / inside
+        if inside.suffix != DATABASE or not file.exists() or _is_there(file, told["size"], _changed_ns(told)):
+            continue
+        if not _is_as_put(file, put.get(str(inside))):
+            expected = f"{file}: expected what was staged, which the store has anew"
+            raise ValueError(f"{expected}, found what was said here since: publish it elsewhere, or move it away")
+
+
+def _take_away(place: Path, inside: str, stamp: list[int]) -> None:
+    """Remove a file that was put there, unless it has been changed, and the folders that it leaves empty."""
+    file = place / inside
+    if not _is_as_put(file, stamp):
+        return
+    file.unlink()
+    with suppress(OSError):
+        for folder in file.relative_to(place).parents:
+            (place / folder).rmdir()
+
+
+def _fetch(store: Any, name: str, file: Path, told: dict[str, Any]) -> None:
+    """Copy a file, unless it is there."""
+    changed = _changed_ns(told)
+    if _is_there(file, told["size"], changed):
+        return
+    file.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = file.with_name(f".{file.name}.part")
+    store.get_file(name, os.fspath(unfinished))
+    if changed is not None:
+        os.utime(unfinished, ns=(changed, changed))
+    unfinished.replace(file)
+
+
+def _others(url: str, place: Path, wanted: _Files) -> list[str]:
+    """What to warn of: files that the store lacks, which count like all others."""
+    inside = (PurePosixPath(path.relative_to(place).as_posix()) for path in place.rglob("*") if path.is_file())
+    others = sorted(file for file in inside if file not in wanted and not _is_hidden(file) and not _is_journal(file))
+    if not others:
+        return []
+    more = f" and {len(others) - 1} more" if len(others) > 1 else ""
+    return [f"{place}: {others[0]}{more}: not in {url}, and not as staged from there: left as it is"]
+
+
+def _copy(database: Path, copy: Path) -> Path:
+    """Copy a database, with what its journal holds, into one file. It stays as it is."""
+    # Whoever has it open has laid a journal beside it. Where there is none, reading must not lay one.
+    open_ = any(_beside(database, journal).exists() for journal in JOURNALS)
+    uri = f"{database.absolute().as_uri()}?{'mode=ro' if open_ else 'immutable=1'}"
+    try:
+        with closing(sqlite3.connect(uri, uri=True)) as source, closing(sqlite3.connect(copy)) as target:
+            source.backup(target)
+            (found,) = target.execute("PRAGMA quick_check(1)").fetchone()
+    except sqlite3.Error as error:
+        found = str(error)
+    if found != "ok":
+        raise ValueError(f"{database}: expected a whole SQLite database, found: {found}")
+    return copy
+
+
+def _write(file: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    unfinished = file.with_name(f"{file.name}.part")
+    unfinished.write_text(text, encoding="utf-8")
+    unfinished.replace(file)
+
+
+def _remove(store: Any, name: str) -> None:
+    if store.exists(name):
+        store.rm_file(name)
 
 
 def _is_there(file: Path, size: int, changed: int | None) -> bool:
-    if not file.is_file() or changed is None:
+    return file.is_file() and changed is not None and _stamp(file) == [size, changed]
+
+
+def _is_as_put(file: Path, stamp: list[int] | None) -> bool:
+    """Whether nobody has changed a file since it was put there, or said anything that its journal has."""
+    if not file.is_file() or _stamp(file) != stamp:
         return False
+    journals = (_beside(file, journal) for journal in JOURNALS if journal != "-shm")
+    return file.suffix != DATABASE or not any(path.exists() and path.stat().st_size > 0 for path in journals)
+
+
+def _stamp(file: Path) -> list[int]:
     stat = file.stat()
-    return (stat.st_size, stat.st_mtime_ns) == (size, changed)
+    return [stat.st_size, stat.st_mtime_ns]
+
+
+def _beside(database: Path, journal: str) -> Path:
+    return database.with_name(database.name + journal)
+
+
+def _is_journal(file: Path | PurePosixPath) -> bool:
+    return file.name.endswith(tuple(DATABASE + journal for journal in JOURNALS))
+
+
+def _is_hidden(file: Path | PurePosixPath) -> bool:
+    return any(part.startswith(".") for part in file.parts)
 
 
 def _changed_ns(told: dict[str, Any]) -> int | None:
