@@ -54,8 +54,9 @@ def test_a_batch_says_which_scan_a_row_belongs_to(run):
     sizes = [len(data[0]["label"]), len(data[-1]["label"])]
     assert torch.bincount(batch["scan"]).tolist() == sizes
     assert torch.equal(batch["w"][: sizes[0]], data[0]["w"])
-    with pytest.raises(IndexError):
-        data[len(data)]
+    for index in (len(data), -len(data) - 1):
+        with pytest.raises(IndexError, match=f"expected a scan of {len(data)}, .*, found {index}$"):
+            data[index]
 
 
 def test_truth_takes_the_place_of_labels(run, drive):
@@ -89,3 +90,25 @@ def test_names_that_there_are_none_of_are_refused(run):
     with pytest.raises(KeyError, match=r"expected a radar of .*, found nosuch"):
         ScanDataset(run, FEATURES, radars=["nosuch"])
     assert len(ScanDataset([run, run.out], FEATURES, radars=run.radars_of(run.sequences[0])[:1])) > 0
+
+
+def test_features_that_are_no_names_of_columns_are_refused(run):
+    for features, error, found in (
+        ("doppler", TypeError, "a list of names, found 'doppler'"),
+        (["x", 1], TypeError, "names, found 1 among them"),
+        ([], ValueError, "one or more names of columns, found none"),
+    ):
+        with pytest.raises(error, match=f"features: expected {found}"):
+            ScanDataset(run, features)
+    assert ScanDataset(run, np.array(FEATURES)).features == FEATURES
+
+
+def test_a_thread_gets_the_sequence_that_it_asks_for(run):
+    class Raced(ScanDataset):
+        """Another thread opens another sequence as soon as one is open."""
+
+        def __setattr__(self, name, value):
+            super().__setattr__(name, value if name != "_open" or value is None else (-1, []))
+
+    data = Raced(run, FEATURES)
+    assert len(data[0]["label"]) == len(next(run.scans(run.sequences[0])))

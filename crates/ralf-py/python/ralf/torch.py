@@ -46,7 +46,8 @@ class ScanDataset(Dataset[Sample]):
 
     Labels are RALF's own: without `truth` nothing that people corrected counts. `truth` is the dataset whose truth is
     taken in place of them; what people corrected in a run's review counts above it, as in `ralf.evaluate`. A
-    `ralf.Truth` is taken as it is. A scan without truth is all unknown.
+    `ralf.Truth` is taken as it is. A scan without truth is all unknown. `features` are names of columns; one that a
+    table lacks is a `KeyError` when that is read.
 
     One sequence is in memory at a time, and another one is read when one of its scans is asked for: where scans of
     several sequences are drawn at random, every draw may read a whole table. `ScanStream` draws them by sequence.
@@ -61,7 +62,9 @@ class ScanDataset(Dataset[Sample]):
         sequences: Sequence[str] | None = None,
         truth: Truth | str | os.PathLike[str] | None = None,
     ) -> None:
-        self.features = list(features)
+        self.features = names(features, "features") or []
+        if not self.features:
+            raise ValueError("features: expected one or more names of columns, found none")
         radars, sequences = names(radars, "radars"), names(sequences, "sequences")
         self._truths: list[Truth | None] = []
         self._scans: list[tuple[Path, str, list[int]]] = []
@@ -95,20 +98,21 @@ class ScanDataset(Dataset[Sample]):
         return self._ends[-1] if self._ends else 0
 
     def __getitem__(self, index: int) -> Sample:
-        if index < 0:
-            index += len(self)
-        if not 0 <= index < len(self):
-            raise IndexError(f"expected a scan below {len(self)}, found {index}")
-        part = bisect_right(self._ends, index)
+        number = index + len(self) if index < 0 else index
+        if not 0 <= number < len(self):
+            raise IndexError(f"expected a scan of {len(self)}, counted from 0 or backwards from -1, found {index}")
+        part = bisect_right(self._ends, number)
         held = self._scans[part][2]
-        return self.sample(part, self.read(part)[held[index - (self._ends[part] - len(held))]])
+        return self.sample(part, self.read(part)[held[number - (self._ends[part] - len(held))]])
 
     def read(self, part: int) -> list[Scan]:
         """All scans of a sequence that hold detections; the last sequence that was asked for stays in memory."""
-        if self._open is None or self._open[0] != part:
+        # Another thread may open another sequence at any moment.
+        held = self._open
+        if held is None or held[0] != part:
             out, sequence, _ = self._scans[part]
-            self._open = (part, list(load(out).scans(sequence)))
-        return self._open[1]
+            held = self._open = (part, list(load(out).scans(sequence)))
+        return held[1]
 
     def sample(self, part: int, scan: Scan) -> Sample:
         """A scan as tensors."""
