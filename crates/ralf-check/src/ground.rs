@@ -18,6 +18,11 @@ const BELOW: f64 = 0.06;
 const UNDER: (f64, f64) = (0.3, 0.08);
 /// Only within this distance of the vehicle is the road a plane, m.
 const NEAR: f64 = 25.0;
+/// The vehicle's own path is so wide to either side, m.
+const PATH: f64 = 2.0;
+/// A bank beside a road may hold more points than the road. It isn't what the vehicle drives on where so many times as
+/// many points of its path lie near z = 0.
+const DRIVEN_ON: f64 = 1.5;
 
 /// Roads are cambered by two degrees, and vehicles pitch by one: more is the mounting's, degrees.
 pub(crate) const TILT_DEG: f64 = 2.0;
@@ -50,7 +55,8 @@ impl GroundFit {
     }
 }
 
-/// The plane with the most LiDAR points (vehicle frame, m) of a LiDAR at a place; `None` where none is found.
+/// The plane with the most LiDAR points (vehicle frame, m) of a LiDAR at a place, unless the vehicle's own path lies on
+/// another one near z = 0; `None` where none is found.
 pub(crate) fn fit(points: &[Point], lidar: &Point) -> Option<GroundFit> {
     let near: Vec<[f32; 3]> = points
         .iter()
@@ -59,25 +65,39 @@ pub(crate) fn fit(points: &[Point], lidar: &Point) -> Option<GroundFit> {
         .collect();
     let step = near.len().div_ceil(POINTS).max(1);
     let thin: Vec<[f32; 3]> = near.into_iter().step_by(step).collect();
-    let config = GroundConfig {
-        model: GroundModel::Plane,
-        max_tilt_deg: WIDEST.0,
-        max_offset: WIDEST.1,
-        inlier_distance: CLOSE,
-        ..GroundConfig::default()
-    };
-    let ground = Ground::fit(&thin, &config, 0)?;
-    let height = |x: f64, y: f64| -ground.height(&Point::new(x, y, 0.0));
+    let widest = plane(&thin, WIDEST)?;
+    let path: Vec<[f32; 3]> = thin.iter().filter(|p| f64::from(p[1].abs()) < PATH).copied().collect();
+    let is_driven_on = |road: &Ground| on(road, &path) as f64 > DRIVEN_ON * on(&widest, &path).max(1) as f64;
+    let ground = plane(&thin, (TILT_DEG, OFFSET)).filter(is_driven_on).unwrap_or(widest);
+    // Upright, where heights over the plane are told at right angles to it.
+    let upright = ground.height(&Point::new(0.0, 0.0, 1.0)) - ground.height(&Point::origin());
+    let height = |x: f64, y: f64| -ground.height(&Point::new(x, y, 0.0)) / upright;
     let offset = height(0.0, 0.0);
     let slope = [height(1.0, 0.0) - offset, height(0.0, 1.0) - offset].map(f64::atan);
-    let below = |p: &&[f32; 3]| ground.height(&Point::new(p[0].into(), p[1].into(), p[2].into())) < -UNDER.0;
     // Nothing lies under the road: what has more below it is a band on walls.
-    if thin.iter().filter(below).count() as f64 > UNDER.1 * thin.len() as f64 {
+    let below = thin.iter().filter(|p| height_over(&ground, p) < -UNDER.0).count();
+    if below as f64 > UNDER.1 * thin.len() as f64 {
         return None;
     }
-    let on = |p: &&[f32; 3]| ground.height(&Point::new(p[0].into(), p[1].into(), p[2].into())).abs() < CLOSE;
-    let support = thin.iter().filter(on).count() as f64 / thin.len().max(1) as f64;
+    let support = on(&ground, &thin) as f64 / thin.len().max(1) as f64;
     Some(GroundFit { ground, slope, offset, support })
+}
+
+/// The plane with the most points that is tilted and shifted by so much at most, degrees and m.
+fn plane(points: &[[f32; 3]], (max_tilt_deg, max_offset): (f64, f64)) -> Option<Ground> {
+    let model = GroundModel::Plane;
+    let config =
+        GroundConfig { model, max_tilt_deg, max_offset, inlier_distance: CLOSE, ..GroundConfig::default() };
+    Ground::fit(points, &config, 0)
+}
+
+fn height_over(ground: &Ground, &[x, y, z]: &[f32; 3]) -> f64 {
+    ground.height(&Point::new(x.into(), y.into(), z.into()))
+}
+
+/// How many points lie on a plane.
+fn on(ground: &Ground, points: &[[f32; 3]]) -> usize {
+    points.iter().filter(|p| height_over(ground, p).abs() < CLOSE).count()
 }
 
 #[cfg(test)]
@@ -92,6 +112,25 @@ mod tests {
         let found = fit(&points, &Point::new(0.0, 0.0, 2.0)).unwrap();
         assert!((found.slope[0].to_degrees() - 3.0).abs() < 0.1 && found.slope[1].abs() < 0.002, "{found:?}");
         assert!((found.offset - 0.2).abs() < 0.01 && found.support > 0.99);
+    }
+
+    /// A road 8 m wide, and beside it a bank that rises by 16 degrees and holds three times as many points.
+    #[test]
+    fn the_road_is_what_the_vehicle_drives_on_and_not_the_bank_beside_it() {
+        let rise = 16.0_f64.to_radians().tan();
+        let (mut points, lidar) = (Vec::new(), Point::new(0.0, 0.0, 3.0));
+        for x in (-200..200).map(|i| f64::from(i) * 0.1) {
+            points.extend((-4..=4).map(|y| Point::new(x, f64::from(y), 0.0)));
+            points.extend((0..27).map(|i| f64::from(i) * 0.25).map(|y| Point::new(x, -4.0 - y, rise * y)));
+        }
+        let found = fit(&points, &lidar).unwrap();
+        // The foot of the bank belongs to it, within the limits of a road.
+        let is_level = found.slope.iter().all(|rise| rise.to_degrees().abs() < TILT_DEG);
+        assert!(is_level && found.offset.abs() < 0.05, "{found:?}");
+        // A LiDAR that is tilted so sees the vehicle's own path tilted, too.
+        let road = points.iter().filter(|p| p.z == 0.0).map(|p| Point::new(p.x, p.y, rise * p.y));
+        let tilted = fit(&road.collect::<Vec<_>>(), &lidar).unwrap();
+        assert!((tilted.slope[1].to_degrees() - 16.0).abs() < 0.1, "{tilted:?}");
     }
 
     #[test]

@@ -223,6 +223,7 @@ impl<'a> Task<'a> {
             known.push(Known {
                 world: 0,
                 scan: 0,
+                t_ns: frame.scan.t_ns(),
                 view,
                 said: truth.plausible.is_some(),
                 plausible: truth.plausible.unwrap_or(false),

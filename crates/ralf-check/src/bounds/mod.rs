@@ -1,6 +1,7 @@
 //! What no sensor gives and no vehicle does, whatever the scene.
 
 mod attitude;
+mod camera;
 mod lidar;
 mod motion;
 mod mounting;
@@ -36,6 +37,7 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     }
     for (camera, times) in rig.cameras.iter().zip(&times.cameras) {
         let mut found = Vec::from_iter(mountings.judge(&camera.name));
+        found.extend(camera::judge(camera));
         found.extend(timing::judge(&camera.name, times));
         found.extend(timing::beside_radars(&camera.name, times, radars));
         verdicts.extend(settled(&camera.name, found));

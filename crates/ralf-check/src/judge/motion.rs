@@ -20,6 +20,8 @@ pub(super) const YAW_RATE_GAIN: (f64, f64) = (0.6, 0.02);
 const CLEARLY: f64 = 2.0;
 /// A factor is a unit's within this share.
 const UNIT: f64 = 0.4;
+/// Speeds this share higher and lower than the right one fit worse.
+const BESIDE: f64 = 0.3;
 
 /// Judges the motion, and puts right what is found for those who come after.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
@@ -30,7 +32,7 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
         changes.iter().map(|change| motion_overlap(&case.lidars, &change.of(&case.motion))).collect();
     let most = explained.iter().copied().max().unwrap_or(0);
     let by_doppler = (0..changes.len()).find(|i| explained[*i] == most).unwrap_or(0);
-    let by_lidar = best(&lidar);
+    let by_lidar = best(&lidar).filter(|found| is_peak(case, &changes[*found], &lidar[*found]));
     if by_doppler != 0 {
         return contradiction(case, &changes[by_doppler], [&lidar[0], &lidar[by_doppler]], most);
     }
@@ -59,6 +61,16 @@ pub(super) fn count_explained(case: &Case, motion: &EgoMotion) -> usize {
 fn best(tallies: &[Tally]) -> Option<usize> {
     let beating = (1..tallies.len()).filter(|i| tallies[0].is_beaten_by(&tallies[*i]));
     beating.max_by(|a, b| tallies[*a].share().total_cmp(&tallies[*b].share()))
+}
+
+/// Whether another speed fits better than a little more of it, a little less and none at all. Along guard rails and
+/// walls any speed fits, the lowest best; and to one at which others drive, much does.
+fn is_peak(case: &Case, change: &MotionChange, then: &Tally) -> bool {
+    let fits_worse = |part: f64| {
+        let speed = MotionChange::speed(part * change.speed);
+        motion_overlap(&case.lidars, &speed.of(&case.motion)).is_beaten_by(then)
+    };
+    change.speed == 1.0 || [0.0, 1.0 - BESIDE, 1.0 + BESIDE].into_iter().all(fits_worse)
 }
 
 fn overlap_evidence(now: &Tally, then: &Tally) -> String {

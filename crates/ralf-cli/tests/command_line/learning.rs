@@ -109,7 +109,7 @@ fn a_model_is_corrected_by_what_people_said_and_not_by_what_else_is_known() {
     let [town, out] = reviewed(&dataset);
     let said = |options: &[&str], model: &str| {
         let ran = program().args(["learn", &town, "-o", model]).args(options).output().unwrap();
-        Ran::of(&ran).exits(0).prints(["tiny", "before", "after"]);
+        Ran::of(&ran).exits(0).prints(["tiny", "wrong: before", "turned", "after: F1"]);
         let text = fs::read_to_string(model).unwrap();
         let line = text.lines().find(|line| line.starts_with("corrected ")).unwrap();
         line.split(' ').nth(1).unwrap().parse::<usize>().unwrap()
@@ -137,6 +137,24 @@ fn a_model_is_corrected_by_what_people_said_and_not_by_what_else_is_known() {
     let twice = format!("{town}/.");
     ralf(["learn", &town, &twice, "--from", &out, "-o", &again]).exits(2).ends_with_error(["named twice"]);
     ralf(["learn", "--correct", "-o", &again]).exits(2);
+}
+
+#[test]
+fn labels_that_say_nothing_or_one_thing_alone_correct_no_model() {
+    let dataset = Dataset::new();
+    let [town, _] = simulated(&dataset);
+    let own = dataset.beside("own.txt");
+    for (label, expected) in [(0_u32, "found none"), (99, "found 0 and ")] {
+        let radars = ["radar_front", "radar_left", "radar_rear", "radar_right"];
+        let folders = radars.map(|radar| format!("{town}/sequences/tiny/ground_truth/{radar}"));
+        for file in folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()) {
+            let file = file.unwrap().path();
+            let detections = fs::metadata(&file).unwrap().len() as usize / 4;
+            fs::write(&file, label.to_le_bytes().repeat(detections)).unwrap();
+        }
+        ralf(["learn", &town, "--correct", "-o", &own, "-q"]).exits(1).ends_with_error([&town, expected]);
+    }
+    assert!(!fs::exists(&own).unwrap());
 }
 
 #[test]

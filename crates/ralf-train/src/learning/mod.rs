@@ -36,7 +36,7 @@ mod testing;
 mod view;
 
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
-pub use correcting::{CorrectedModel, Correcting, Judged, LEFT_ALONE, correct};
+pub use correcting::{CorrectedModel, Correcting, Judged, LEFT_ALONE, Turns, correct};
 pub use fit::{Fitted, LearnError, fit};
 pub use fitting::Fitting;
 pub use judge::LeftOut;

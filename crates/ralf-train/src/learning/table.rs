@@ -25,6 +25,8 @@ pub struct Known {
     pub world: u16,
     /// The scan that it belongs to: rows of one number share what could be observed.
     pub scan: u32,
+    /// When that was measured, ns.
+    pub t_ns: i64,
     /// How much of the scan's surroundings could be observed.
     pub view: View,
     /// Whether somebody knows what it is; what nobody knows is only heard of by those around it.

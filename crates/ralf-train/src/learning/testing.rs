@@ -26,6 +26,7 @@ pub(super) fn table(scans: u32, detections: usize) -> TrainingTable {
             known.push(Known {
                 world,
                 scan,
+                t_ns: i64::from(scan) * 100_000_000,
                 view: View::Whole,
                 said: true,
                 plausible,

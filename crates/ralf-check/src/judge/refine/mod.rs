@@ -24,6 +24,12 @@ const SIGMAS: f64 = 3.0;
 /// And so many of those that are told: what one recording in twenty shows that is right is no reason to change it.
 const TOLD_SIGMAS: f64 = 2.0;
 
+/// Where along the way most detections lie beside the LiDAR's points is looked for within so much, in steps, m.
+const WAY: (f64, f64) = (2.0, 0.5);
+/// That is a place on the way where so far ahead and back, m, so many times fewer do.
+const FOOT: f64 = 3.0;
+const PEAK: f64 = 1.3;
+
 /// The correction of one sensor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refinement {
@@ -87,7 +93,7 @@ fn told(deviations: &Deviations, quantity: usize) -> f64 {
 }
 
 /// Quantities that say nothing are left alone, the least telling one first; what goes together with them is sought
-/// again without.
+/// again without. What can't be judged here stays as it was found.
 fn proposed(
     evidence: &Evidence,
     likeliest_of_all: Values,
@@ -103,19 +109,33 @@ fn proposed(
         };
         let idle = (0..4).filter(|i| open[*i]).filter(is_idle);
         let Some(least) = idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b))) else {
-            return Values::from_fn(|i, _| if open[i] { values[i] } else { 0.0 });
+            return values;
         };
-        open[least] = false;
+        (open[least], values[least]) = (false, 0.0);
         values = likeliest(evidence, &values, open);
     }
 }
 
-/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the
-/// LiDAR or by speeds that change.
+/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place to the side by the LiDAR alone, a place
+/// along the way and a clock by a LiDAR that tells how far along it things are. Without a LiDAR, speeds that change
+/// tell of the clock; one that tells nothing along the way would pull at it all the same.
 fn judgeable(case: &Case, radar: usize) -> Open {
     let by_lidar = case.overlap(radar, &SensorChange::default(), Measure::Beside).is_enough();
     let mount = case.mount(radar);
     let figures = case.doppler(radar, &case.motion, &mount);
+    let by_doppler = figures.is_some();
     let timed = figures.and_then(|figures| clock(&case.fits[radar], &case.motion, &mount, &figures));
-    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || timed.is_some_and(|clock| clock.is_sharp)]
+    let along = by_lidar && is_way_told(case, radar);
+    let by_speeds = !by_lidar && timed.is_some_and(|clock| clock.is_sharp);
+    [by_lidar || by_doppler, along, by_lidar, along || by_speeds]
+}
+
+/// Whether the LiDAR tells how far along the way a radar's detections lie: clearly fewer lie beside its points farther
+/// ahead and farther back. Along guard rails and walls as many do, and more the nearer they come to the LiDAR.
+fn is_way_told(case: &Case, radar: usize) -> bool {
+    let share = |metres: f64| case.overlap(radar, &SensorChange::shift(metres, 0.0), Measure::Beside).share();
+    let steps = (WAY.0 / WAY.1).round() as i32;
+    let tried = (-steps..=steps).map(|i| f64::from(i) * WAY.1).map(|metres| (share(metres), metres));
+    let best = tried.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.is_some_and(|(most, at)| [-FOOT, FOOT].iter().all(|side| most > PEAK * share(at + side)))
 }

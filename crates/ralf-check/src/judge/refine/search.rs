@@ -17,12 +17,12 @@ const REACH: [f64; 4] = [0.5, 0.08, 0.08, 20.0];
 /// Along an axis of the bend a search ends at this part of a standard deviation.
 const FINEST: f64 = 0.05;
 
-/// Which quantities may be changed; the others stay at nothing.
+/// Which quantities may be changed; the others stay as they are.
 pub(super) type Open = [bool; 4];
 
 /// The likeliest values near a start.
 pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Values {
-    let mut best = Values::from_fn(|i, _| if open[i] { start[i] } else { 0.0 });
+    let mut best = *start;
     for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
         best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
     }
@@ -36,8 +36,9 @@ pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Valu
         for (axis, variance) in
             axes.column_iter().zip(variances.iter()).filter(|(_, variance)| **variance > 0.0)
         {
-            let deviation = variance.sqrt();
-            best = along(evidence, best, &(axis * deviation), [1.0, FINEST]);
+            // Exactly 0 where nothing may change: an eigenvector is so but for rounding.
+            let deviation = Values::from_fn(|i, _| if open[i] { axis[i] * variance.sqrt() } else { 0.0 });
+            best = along(evidence, best, &deviation, [1.0, FINEST]);
         }
     }
     best

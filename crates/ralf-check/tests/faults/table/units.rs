@@ -3,6 +3,7 @@
 use super::planting::{spherical, times};
 use super::right::near;
 use super::{ALL_RADARS, FRONT, Fault};
+use ralf::sensors::Intrinsics;
 use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
@@ -37,6 +38,24 @@ fn of_lengths() -> Vec<Fault> {
             true,
             |p| p.sequence.rig.lidars[0].sigma_range *= 1000.0,
             |r| matches!(r, Remedy::Value { key: "sigma_range_m", value } if *value < 0.5)
+        ),
+        fault!(
+            "lens of images twice as large",
+            ["camera_front"],
+            true,
+            |p| {
+                let camera = &mut p.sequence.rig.cameras[FRONT];
+                match &mut camera.intrinsics {
+                    Intrinsics::Pinhole { focal, center, .. }
+                    | Intrinsics::KannalaBrandt { focal, center, .. } => {
+                        focal.iter_mut().chain(center).for_each(|pixels| *pixels *= 2.0);
+                    }
+                    Intrinsics::Scaramuzza { inverse_polynomial, center, .. } => {
+                        inverse_polynomial.iter_mut().chain(center).for_each(|pixels| *pixels *= 2.0);
+                    }
+                }
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("larger"))
         ),
     ]
 }

@@ -1,6 +1,6 @@
 //! The corrections that a check proposes, as a settings file.
 
-use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State};
+use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State, Verdict};
 use std::collections::BTreeMap;
 
 /// The text of the file: remedies of what is doubted, and refined corrections of the radars.
@@ -13,13 +13,15 @@ pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
     for check in checks {
         let doubted =
             check.verdicts.iter().filter(|verdict| matches!(verdict.state, State::Doubt | State::Fact));
-        for (subject, remedy) in
-            doubted.filter_map(|verdict| Some((&verdict.subject, verdict.remedy.as_ref()?)))
-        {
-            let known = refined.iter().any(|refinement| refinement.name == *subject);
+        for (verdict, remedy) in doubted.filter_map(|verdict| Some((verdict, verdict.remedy.as_ref()?))) {
+            let known = refined.iter().any(|refinement| refinement.name == verdict.subject);
             // A sensor's own change is told by its refinement.
             if !(known && matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))) {
-                remedy.settings(subject).into_iter().for_each(|setting| add(&mut lines, setting, ""));
+                let denied = denied(checks, verdict);
+                for Setting { key, value } in remedy.settings(&verdict.subject) {
+                    let key = if denied.is_some() { format!("# {key}") } else { key };
+                    add(&mut lines, Setting { key, value }, denied.as_deref().unwrap_or_default());
+                }
             }
         }
     }
@@ -29,10 +31,26 @@ pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
         }
     }
     lines.iter().for_each(|(key, rest)| text += &format!("{key}{rest}\n"));
-    if lines.is_empty() {
+    if !lines.keys().any(|key| !key.starts_with('#')) {
         text += "# Nothing is proposed.\n";
     }
     text
+}
+
+/// Settings are those of all sequences: what is doubted in some of them is not proposed, but told, where it is in order
+/// in as many others or in more.
+fn denied(checks: &[SequenceCheck], doubt: &Verdict) -> Option<String> {
+    let is_said = |check: &SequenceCheck, state: State| {
+        check.verdicts.iter().any(|verdict| {
+            (&verdict.subject, verdict.question, verdict.state) == (&doubt.subject, doubt.question, state)
+        })
+    };
+    let names = |state: State| -> Vec<&str> {
+        checks.iter().filter(|check| is_said(check, state)).map(|check| check.name.as_str()).collect()
+    };
+    let (doubted, good) = (names(doubt.state), names(State::Good));
+    let told = || format!("    # in {}; in order in {}", doubted.join(", "), good.join(", "));
+    (good.len() >= doubted.len() && !good.is_empty()).then(told)
 }
 
 /// Roll, pitch and height are found by other means than the refinement's.
@@ -74,4 +92,29 @@ fn note(refinement: &Refinement, which: &[usize], unit: &str) -> String {
     }
     let told: Vec<String> = which.iter().map(|i| format!("{:.3}", refinement.deviations[*i])).collect();
     format!("    # +- {} {unit}", told.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf_check::Question;
+
+    fn check(sequence: &str, state: State) -> SequenceCheck {
+        let remedy = (state == State::Doubt).then_some(Remedy::Speed(0.5));
+        let (subject, question) = ("motion".to_owned(), Question::Motion);
+        let verdict = Verdict { subject, question, state, evidence: String::new(), remedy };
+        SequenceCheck { name: sequence.to_owned(), verdicts: vec![verdict], figures: Vec::new() }
+    }
+
+    #[test]
+    fn what_is_in_order_in_as_many_other_sequences_is_told_and_not_proposed() {
+        let doubt = [check("00", State::Doubt)];
+        assert!(text(&doubt, &[]).contains("\nmotion.speed_factor = 0.5\n"));
+        let denied = [check("00", State::Doubt), check("01", State::Good), check("02", State::CannotJudge)];
+        let text_of_denied = text(&denied, &[]);
+        let line = "\n# motion.speed_factor = 0.5    # in 00; in order in 01\n# Nothing is proposed.\n";
+        assert!(text_of_denied.ends_with(line), "{text_of_denied}");
+        let most = [check("00", State::Doubt), check("01", State::Good), check("02", State::Doubt)];
+        assert!(text(&most, &[]).contains("\nmotion.speed_factor = 0.5\n"));
+    }
 }

@@ -54,7 +54,8 @@ Examples:
   ralf learn recordings/city --correct -o own.txt      the same by the labels in the recording itself
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
-    /// Recordings with corrected labels; each is a world
+    /// Recordings with corrected labels; each is a world. With --from or --correct, recordings of which people said
+    /// something
     #[arg(value_name = "DATASET", required_unless_present = "preset")]
     datasets: Vec<PathBuf>,
     /// The model's file
@@ -186,9 +187,16 @@ impl LearnArgs {
         let progress = Progress::of_steps(0, "correcting");
         let reached = |done, of| progress.reached_of(done as u64, of as u64);
         let origin = self.origin(&correcting.parameters);
-        let CorrectedModel { model, judged } = correct_model(begin, table, &correcting, origin, &reached)?;
+        let corrected = correct_model(begin, table, &correcting, origin, &reached);
+        let CorrectedModel { model, judged } = corrected.with_context(|| self.heard())?;
         drop(progress);
         Ok(Learned { page: text::corrected_page(&judged), json: text::corrected_json(&judged)?, model })
+    }
+
+    /// What is learned from, for messages.
+    fn heard(&self) -> String {
+        let datasets = self.datasets.iter().chain(&self.correct.from);
+        datasets.map(|place| place.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 
     /// Trees as they are where nobody asks for others.

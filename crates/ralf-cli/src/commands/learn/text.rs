@@ -1,6 +1,6 @@
 //! What a model is worth, for people and for machines.
 
-use ralf_train::learning::{Fitted, Judged, LeftOut, SUITES, Scores, SuiteScores};
+use ralf_train::learning::{Fitted, Judged, LeftOut, SUITES, Scores, SuiteScores, Turns};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -80,7 +80,7 @@ fn three(scores: &Scores) -> String {
     parts.map(|value| value.map_or("    -".to_owned(), |value| format!("{value:.3}"))).join("  ")
 }
 
-/// A table: each sequence before and after.
+/// Two tables: what becomes of labels, and what they are worth, each sequence before and after.
 pub(super) fn corrected_page(judged: &[Judged]) -> String {
     let how = match judged {
         [only] if only.after == Scores::default() => "(one scan alone was: nothing is left to judge by)",
@@ -88,32 +88,61 @@ pub(super) fn corrected_page(judged: &[Judged]) -> String {
         _ => "by what was said of others",
     };
     let mut page = format!(
-        "What was said of each sequence, as the model labelled it before, and after it was corrected {how}.\n\
-         F1 (plausible), average precision (AP), accuracy and calibration error (ECE) of each.\n\n"
+        "What was said of each sequence, as the model labels it before, and after it was corrected {how}.\n\n"
     );
     let width = judged.iter().map(|sequence| sequence.world.len()).max().unwrap_or(0).max(12);
-    let head =
-        "     detections   plausible   before: F1   AP     acc.   ECE      after: F1   AP     acc.   ECE";
+    turned(&mut page, width, judged);
+    page += "\n\
+        F1 (plausible), average precision (AP), accuracy and calibration error (ECE) of what was said. Where that is\n\
+        errors alone they are low whatever the model does: look at what is wrong and what turns.\n\n";
+    let head = "before: F1   AP     acc.   ECE      after: F1   AP     acc.   ECE";
     line(&mut page, width, "", head);
-    for Judged { world, detections, plausible, before, after } in judged {
-        let counts = format!("{detections:>15} {plausible:>11}");
-        line(&mut page, width, world, &format!("{counts}          {before}         {after}"));
+    for Judged { world, before, after, .. } in judged {
+        line(&mut page, width, world, &format!("     {before}         {after}"));
     }
     if judged.len() > 1 {
         let mean = |of: fn(&Judged) -> Scores| Scores::mean(&judged.iter().map(of).collect::<Vec<_>>());
         let (before, after) = (mean(|sequence| sequence.before), mean(|sequence| sequence.after));
-        line(&mut page, width, "mean", &format!("{:37}{before}         {after}", ""));
+        line(&mut page, width, "mean", &format!("     {before}         {after}"));
     }
     page
+}
+
+/// How many detections are labelled otherwise than was said, and how many turn of those that were left alone.
+fn turned(page: &mut String, width: usize, judged: &[Judged]) {
+    let mut row = |name: &str, cells: [String; 6]| {
+        let [said, plausible, before, after, alone, turned] = cells;
+        let cells = format!("{said:>10} {plausible:>11} {before:>14} {after:>7} {alone:>12} {turned:>8}");
+        line(page, width, name, &cells);
+    };
+    row("", ["said", "plausible", "wrong: before", "after", "left alone", "turned"].map(str::to_owned));
+    let told = |count: Option<usize>| count.map_or("-".to_owned(), |count| count.to_string());
+    let cells = |turns: &Turns| {
+        let Turns { said, plausible, wrong_before, wrong_after, left_alone, turned } = *turns;
+        let counts = [Some(said), Some(plausible), Some(wrong_before), wrong_after, Some(left_alone), turned];
+        counts.map(told)
+    };
+    judged.iter().for_each(|sequence| row(&sequence.world, cells(&sequence.turns)));
+    if judged.len() > 1 {
+        row("all", cells(&judged.iter().map(|sequence| sequence.turns).sum()));
+    }
 }
 
 /// The same as JSON.
 pub(super) fn corrected_json(judged: &[Judged]) -> serde_json::Result<String> {
     let mut sequences = Map::new();
-    for Judged { world, detections, plausible, before, after } in judged {
-        let (before, after) = (scores_json(before), scores_json(after));
-        let told =
-            json!({ "detections": detections, "plausible": plausible, "before": before, "after": after });
+    for Judged { world, turns, before, after } in judged {
+        let Turns { said, plausible, wrong_before, wrong_after, left_alone, turned } = turns;
+        let told = json!({
+            "detections": said,
+            "plausible": plausible,
+            "wrong_before": wrong_before,
+            "wrong_after": wrong_after,
+            "left_alone": left_alone,
+            "turned": turned,
+            "before": scores_json(before),
+            "after": scores_json(after),
+        });
         sequences.insert(world.clone(), told);
     }
     serde_json::to_string_pretty(&json!({ "corrected": sequences }))

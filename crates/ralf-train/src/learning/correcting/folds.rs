@@ -16,8 +16,8 @@ pub(super) struct Folds {
 }
 
 impl Folds {
-    /// By sequence, of which somebody said something in two or more; else stretches of scans of the only one, whose
-    /// parts lie near each other. None where one scan is all.
+    /// By sequence, of which somebody said something in two or more; else stretches of time of the only one, which lie
+    /// near each other. None where all was measured at one time.
     pub(super) fn new(table: &TrainingTable) -> Self {
         let mut said: Vec<u16> =
             table.known.iter().filter(|known| known.said).map(|known| known.world).collect();
@@ -28,12 +28,12 @@ impl Folds {
             let of_row = table.known.iter().map(|known| of_world(known.world)).collect();
             return Self { count: said.len().min(MOST), of_row };
         }
-        let mut scans: Vec<u32> =
-            table.known.iter().filter(|known| known.said).map(|known| known.scan).collect();
-        scans.sort_unstable();
-        scans.dedup();
-        let count = if scans.len() > 1 { scans.len().min(OF_ONE) } else { 0 };
-        let of_scan = |scan: u32| scans.partition_point(|other| *other < scan) * count / scans.len();
-        Self { count, of_row: table.known.iter().map(|known| of_scan(known.scan)).collect() }
+        let mut times: Vec<i64> =
+            table.known.iter().filter(|known| known.said).map(|known| known.t_ns).collect();
+        times.sort_unstable();
+        times.dedup();
+        let count = if times.len() > 1 { times.len().min(OF_ONE) } else { 0 };
+        let of_time = |t_ns: i64| times.partition_point(|other| *other < t_ns) * count / times.len();
+        Self { count, of_row: table.known.iter().map(|known| of_time(known.t_ns)).collect() }
     }
 }

@@ -11,7 +11,7 @@ mod folds;
 mod judge;
 mod says;
 
-pub use judge::Judged;
+pub use judge::{Judged, Turns};
 
 use super::boosting::{Bins, Examples, Grown, Parameters, boost};
 use super::fit::LearnError;
@@ -64,8 +64,8 @@ pub struct CorrectedModel {
 /// trained in stay those of the one it begins with. `progress` is told how many forests of how many are grown.
 ///
 /// # Errors
-/// A table of which nobody said anything, one that lacks what the model reads, or a model that was corrected already:
-/// what it knows of these recordings would be learned twice.
+/// A table of which nobody said anything or in which all is alike, what was left alone, too; one that lacks what the
+/// model reads; or a model that was corrected already: what it knows of these recordings would be learned twice.
 pub fn correct(
     begin: &Model,
     table: &TrainingTable,
@@ -81,6 +81,7 @@ pub fn correct(
     }
     let says = Says::new(begin, table, &correcting.learned)?;
     let ground = Ground::new(begin, table, &says, correcting.threshold);
+    ground.check()?;
     let folds = Folds::new(table);
     // One without each part, and the last with all.
     let left_out: Vec<Option<usize>> = (0..folds.count).map(Some).chain([None]).collect();
@@ -127,6 +128,17 @@ impl<'a> Ground<'a> {
             weights: both().map(|(known, _)| if known.said { 1.0 } else { LEFT_ALONE }).collect(),
             monotone: model.inputs.iter().map(|input| direction(&input.name)).collect(),
             begin: &says.at_last,
+        }
+    }
+
+    /// Nothing is learned from one class.
+    fn check(&self) -> Result<(), LearnError> {
+        let plausible = self.target.iter().filter(|plausible| **plausible).count();
+        let artifacts = self.target.len() - plausible;
+        if plausible > 0 && artifacts > 0 {
+            Ok(())
+        } else {
+            Err(LearnError::OneClass { plausible, artifacts })
         }
     }
 

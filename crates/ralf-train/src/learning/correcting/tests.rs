@@ -66,8 +66,9 @@ fn what_was_said_of_other_sequences_is_heard_and_the_model_is_the_same_whatever_
     let found = corrected(&own, 1).unwrap();
     assert_eq!(found, corrected(&own, 3).unwrap());
     assert_eq!(found.judged.len(), 3);
-    for Judged { world, detections, before, after, .. } in &found.judged {
-        assert_eq!(*detections, 300);
+    for Judged { world, turns, before, after } in &found.judged {
+        assert_eq!((turns.said, turns.left_alone, turns.turned), (300, 0, Some(0)));
+        assert!(turns.wrong_after.unwrap() * 2 < turns.wrong_before, "{world}: {turns:?}");
         let (before, after) = (before.f1.unwrap(), after.f1.unwrap());
         assert!(before < 0.8 && after > 0.85, "{world}: {before} {after}");
     }
@@ -91,7 +92,10 @@ fn who_corrects_errors_alone_changes_what_is_like_them() {
         // What nobody knows means nothing.
         own.known[row].plausible &= own.known[row].said;
     }
-    let found = corrected(&own, 2).unwrap().model;
+    let CorrectedModel { model: found, judged } = corrected(&own, 2).unwrap();
+    let all: Turns = judged.iter().map(|judged| judged.turns).sum();
+    assert!(all.wrong_before == all.said && all.wrong_after.unwrap() * 2 < all.said, "{all:?}");
+    assert!(all.left_alone == 900 - all.said && all.turned.unwrap() * 20 < all.left_alone, "{all:?}");
     let truth = self::own(90);
     let count = |model| {
         [is_other, |table: &TrainingTable, row| !is_other(table, row)].map(|of| wrong(model, &truth, of))
@@ -137,16 +141,15 @@ fn one_sequence_alone_is_judged_part_by_part_and_one_scan_not_at_all() {
     let mut own = own(90);
     own.known.iter_mut().for_each(|known| known.said &= known.world == 1);
     let found = corrected(&own, 2).unwrap();
-    let [Judged { world, detections: 300, after, .. }] = &found.judged[..] else {
+    let [Judged { world, turns: Turns { said: 300, .. }, after, .. }] = &found.judged[..] else {
         panic!("{:?}", found.judged)
     };
     assert!(world == "motorway" && after.f1.unwrap() > 0.85, "{after:?}");
     own.known.iter_mut().for_each(|known| known.said &= known.scan == 4);
     let found = corrected(&own, 2).unwrap();
-    let [Judged { detections: 10, before, after, .. }] = &found.judged[..] else {
-        panic!("{:?}", found.judged)
-    };
+    let [Judged { turns, before, after, .. }] = &found.judged[..] else { panic!("{:?}", found.judged) };
     assert!(before.accuracy.is_some() && *after == Default::default());
+    assert_eq!((turns.said, turns.wrong_after, turns.turned), (10, None, None));
     assert_eq!(Model::from_text(&found.model.to_text()).unwrap(), found.model);
 }
 
@@ -170,13 +173,16 @@ fn what_was_not_seen_before_is_familiar_where_it_was_corrected() {
 }
 
 #[test]
-fn silence_a_corrected_model_and_missing_evidence_are_refused() {
+fn silence_one_class_a_corrected_model_and_missing_evidence_are_refused() {
     let mut own = own(30);
     let once = corrected(&own, 1).unwrap().model;
     let twice = correct(&once, &own, &correcting(1), Origin::default(), &|_, _| {});
     assert_eq!(twice, Err(LearnError::AlreadyCorrected));
     let blind = own.without_groups(&[own.features[0].group.to_owned()]);
     assert!(matches!(corrected(&blind, 1), Err(LearnError::Use(_))));
+    own.known.iter_mut().for_each(|known| known.plausible = false);
+    let one_class = corrected(&own, 1);
+    assert_eq!(one_class, Err(LearnError::OneClass { plausible: 0, artifacts: own.len() }));
     own.known.iter_mut().for_each(|known| known.said = false);
     assert_eq!(corrected(&own, 1), Err(LearnError::NothingSaid));
 }
