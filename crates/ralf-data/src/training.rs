@@ -15,7 +15,7 @@ use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow, Unreadable};
 use ralf::sensors::Rig;
 use ralf_train::learning::{Known, TrainingTable, View};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What is gathered from a recording, and how.
 pub struct TrainingGatherer<'a> {
@@ -239,26 +239,22 @@ impl<'a> Task<'a> {
 
     /// What is true of a scan's detections, or why nobody knows.
     fn true_of(&self, place: ScanIndex, detections: usize) -> Result<Result<Vec<True>, String>, DataError> {
+        let id = self.id(place);
         let (labels, causes, file) = match self.truth {
             TrainingTruth::Known => match self.reader.truth(place.radar, place.scan) {
-                Ok(Some(truth)) => (truth.labels, truth.causes, String::new()),
+                Ok(Some(truth)) => (truth.labels, Some(truth.causes), PathBuf::new()),
                 Ok(None) => return Ok(Err("its truth is not known".to_owned())),
                 Err(error) => return Ok(Err(error.to_string())),
             },
-            TrainingTruth::Said(truth) => {
-                let id = self.id(place);
-                let labels = truth.labels(&id)?;
-                let causes = self.causes_of(&id, labels.len())?;
-                (labels, causes, truth.file(&id).display().to_string())
-            }
+            TrainingTruth::Said(truth) => (truth.labels(&id)?, None, truth.file(&id)),
         };
         if labels.len() != detections {
-            let expected = format!("{detections} as in the scan");
-            let file = Path::new(&file);
-            return Err(DataError::content(file, "number of labels", expected, labels.len().to_string()));
+            let (expected, found) = (format!("{detections} as in the scan"), labels.len().to_string());
+            return Err(DataError::content(&file, "number of labels", expected, found));
         }
+        let causes = causes.map_or_else(|| self.causes_of(&id, detections), Ok)?;
         let cause = |row: usize| causes.get(row).copied().unwrap_or(0);
-        let shown = self.shown(&self.id(place), detections);
+        let shown = self.shown(&id, detections);
         let told = |(row, label): (usize, &Label)| True {
             plausible: truth_of(label.id),
             shown: shown.get(row).copied().flatten(),

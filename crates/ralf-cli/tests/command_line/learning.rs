@@ -144,16 +144,21 @@ fn labels_that_say_nothing_or_one_thing_alone_correct_no_model() {
     let dataset = Dataset::new();
     let [town, _] = simulated(&dataset);
     let own = dataset.beside("own.txt");
-    for (label, expected) in [(0_u32, "found none"), (99, "found 0 and ")] {
+    for (label, expected) in [(0_u32, "found none"), (99, " and 0")] {
         let radars = ["radar_front", "radar_left", "radar_rear", "radar_right"];
         let folders = radars.map(|radar| format!("{town}/sequences/tiny/ground_truth/{radar}"));
-        for file in folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()) {
-            let file = file.unwrap().path();
+        let files = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+        let files = files.map(|file| file.unwrap().path());
+        for file in files.filter(|file| file.extension().is_some_and(|end| end == "label")) {
             let detections = fs::metadata(&file).unwrap().len() as usize / 4;
             fs::write(&file, label.to_le_bytes().repeat(detections)).unwrap();
         }
         ralf(["learn", &town, "--correct", "-o", &own, "-q"]).exits(1).ends_with_error([&town, expected]);
     }
+    // Of two files that don't belong together, the damaged one is named.
+    let cut = format!("{town}/sequences/tiny/ground_truth/radar_left/000001.label");
+    fs::write(&cut, [0; 4]).unwrap();
+    ralf(["learn", &town, "--correct", "-o", &own, "-q"]).exits(1).ends_with_error([&cut, "found 1"]);
     assert!(!fs::exists(&own).unwrap());
 }
 
