@@ -93,7 +93,9 @@ fn array(values: Values) -> ArrayRef {
         Values::U16(values) => plain::<UInt16Type>(values),
         Values::U32(values) => plain::<UInt32Type>(values),
         Values::I64(values) => plain::<Int64Type>(values),
-        Values::F32(values) => {
+        Values::F32(mut values) => {
+            // An infinite one is absent as NaN is: views of the memory tell both alike.
+            values.iter_mut().filter(|value| value.is_infinite()).for_each(|value| *value = f32::NAN);
             let present: NullBuffer = values.iter().map(|value| value.is_finite()).collect();
             let nulls = (present.null_count() > 0).then_some(present);
             Arc::new(PrimitiveArray::<Float32Type>::new(values.into(), nulls))

@@ -168,3 +168,9 @@ def test_whether_a_radar_measures_elevation_is_a_truth_or_a_word_of_files():
     for elevation, error in (("None", ValueError), ("", ValueError), (None, TypeError), (0, TypeError)):
         with pytest.raises(error, match="front: elevation: expected True or False"):
             ralf.Radar("front", elevation=elevation)
+
+
+def test_what_is_no_finite_number_is_absent_to_numpy_and_arrow_alike():
+    found = sequence()
+    found.add_radar_scan("front", 0, xyz=np.eye(3), doppler=[np.inf, 1.0, -np.inf])
+    assert np.array_equal(found.label()["doppler"], [np.nan, 1.0, np.nan], equal_nan=True)

@@ -16,6 +16,10 @@ const LIDAR_WEIGHT: f64 = 0.3;
 const VELOCITY_SIGMA: (f64, f64) = (0.02, 0.01);
 /// What a single scan's velocity can cost.
 const VELOCITY_CAP: f64 = 4.0;
+/// So far ahead and back, m, fewer detections lie on fronts than at the right place along the way, by so many standard
+/// deviations of how many do.
+const ASIDE: [f64; 6] = [-2.0, -1.5, -1.0, 1.0, 1.5, 2.0];
+const CLEARLY: f64 = 2.5;
 /// Stretches of time, whose measurements have little to do with each other.
 pub(super) const STRETCHES: usize = 8;
 /// Kinds of evidence: range rates, and the LiDAR by bands of range.
@@ -76,6 +80,19 @@ impl<'a> Evidence<'a> {
     /// The logarithm of the likelihood of each part of the evidence, but for a constant.
     pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
         self.parts(values, &self.on_fronts(values))
+    }
+
+    /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections lie
+    /// on fronts than a little farther ahead and back. Along guard rails and walls as many do, and more the nearer they
+    /// come to the LiDAR, which sees more there.
+    pub(super) fn tells_along(&self, values: &Values) -> bool {
+        let on_fronts = |metres: f64| -> f64 {
+            let moved = values + self::values(&SensorChange::shift(metres, 0.0));
+            self.likelihoods(&moved).iter().flat_map(|kinds| &kinds[1..]).sum()
+        };
+        let there = on_fronts(0.0);
+        let aside = ASIDE.iter().map(|metres| on_fronts(*metres)).sum::<f64>() / ASIDE.len() as f64;
+        there - aside > CLEARLY * (LIDAR_WEIGHT * there).sqrt()
     }
 
     /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of

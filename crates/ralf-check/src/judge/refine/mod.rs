@@ -24,12 +24,6 @@ const SIGMAS: f64 = 3.0;
 /// And so many of those that are told: what one recording in twenty shows that is right is no reason to change it.
 const TOLD_SIGMAS: f64 = 2.0;
 
-/// Where along the way most detections lie beside the LiDAR's points is looked for within so much, in steps, m.
-const WAY: (f64, f64) = (2.0, 0.5);
-/// That is a place on the way where so far ahead and back, m, so many times fewer do.
-const FOOT: f64 = 3.0;
-const PEAK: f64 = 1.3;
-
 /// The correction of one sensor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refinement {
@@ -74,8 +68,7 @@ fn of_radar(case: &Case, radar: usize) -> Option<Refinement> {
         return None;
     }
     let evidence = Evidence::of(case, radar);
-    let open = judgeable(case, radar);
-    let values = likeliest(&evidence, &evidence.start(), open);
+    let (open, values) = found(&evidence, judgeable(case, radar));
     let deviations = deviations(&evidence, &values, open);
     Some(Refinement {
         name: case.name(radar).to_owned(),
@@ -83,6 +76,18 @@ fn of_radar(case: &Case, radar: usize) -> Option<Refinement> {
         deviations: std::array::from_fn(|i| told(&deviations, i)),
         proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
     })
+}
+
+/// The likeliest values of what is open. A LiDAR that doesn't tell how far along the way things are would pull at that
+/// and at the clock all the same: then both are left alone.
+fn found(evidence: &Evidence, open: Open) -> (Open, Values) {
+    let [yaw, forward, left, _] = open;
+    let values = likeliest(evidence, &evidence.start(), open);
+    if !forward || evidence.tells_along(&values) {
+        return (open, values);
+    }
+    let open = [yaw, false, left, false];
+    (open, likeliest(evidence, &evidence.start(), open))
 }
 
 /// How well a quantity is known in its unit, with what more measurements would not take away.
@@ -101,41 +106,48 @@ fn proposed(
     mut open: Open,
 ) -> Values {
     let mut values = likeliest_of_all;
-    loop {
-        let in_sigmas = |i: &usize| values[*i].abs() / deviations.chance[*i];
-        let is_idle = |i: &usize| {
-            let least = QUANTITIES[*i].smallest.max(TOLD_SIGMAS * told(deviations, *i));
-            in_sigmas(i) < SIGMAS || values[*i].abs() * QUANTITIES[*i].prior < least
-        };
-        let idle = (0..4).filter(|i| open[*i]).filter(is_idle);
-        let Some(least) = idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b))) else {
-            return values;
-        };
-        (open[least], values[least]) = (false, 0.0);
-        values = likeliest(evidence, &values, open);
+    while let Some(least) = idle(&values, deviations, open).or_else(|| hardly_missed(evidence, &values, open))
+    {
+        values = without(evidence, &values, open, least);
+        open[least] = false;
     }
+    values
 }
 
-/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place to the side by the LiDAR alone, a place
-/// along the way and a clock by a LiDAR that tells how far along it things are. Without a LiDAR, speeds that change
-/// tell of the clock; one that tells nothing along the way would pull at it all the same.
+/// The least telling quantity of those that are smaller than what is proposed.
+fn idle(values: &Values, deviations: &Deviations, open: Open) -> Option<usize> {
+    let in_sigmas = |i: &usize| values[*i].abs() / deviations.chance[*i];
+    let is_idle = |i: &usize| {
+        let least = QUANTITIES[*i].smallest.max(TOLD_SIGMAS * told(deviations, *i));
+        in_sigmas(i) < SIGMAS || values[*i].abs() * QUANTITIES[*i].prior < least
+    };
+    let idle = (0..4).filter(|i| open[*i]).filter(is_idle);
+    idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b)))
+}
+
+/// The quantity without which values are least less likely, if that is less than so many standard deviations mean:
+/// farther from its maximum a likelihood may fall off less than about it.
+fn hardly_missed(evidence: &Evidence, values: &Values, open: Open) -> Option<usize> {
+    let highest = evidence.posterior(values);
+    let gain = |i: usize| highest - evidence.posterior(&without(evidence, values, open, i));
+    let gains = (0..4).filter(|i| open[*i]).map(|i| (i, gain(i)));
+    let hardly = gains.filter(|(_, gain)| *gain < SIGMAS * SIGMAS / 2.0);
+    hardly.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+}
+
+/// The likeliest values without a quantity.
+fn without(evidence: &Evidence, values: &Values, mut open: Open, quantity: usize) -> Values {
+    let mut start = *values;
+    (start[quantity], open[quantity]) = (0.0, false);
+    likeliest(evidence, &start, open)
+}
+
+/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the
+/// LiDAR or by speeds that change.
 fn judgeable(case: &Case, radar: usize) -> Open {
     let by_lidar = case.overlap(radar, &SensorChange::default(), Measure::Beside).is_enough();
     let mount = case.mount(radar);
     let figures = case.doppler(radar, &case.motion, &mount);
-    let by_doppler = figures.is_some();
     let timed = figures.and_then(|figures| clock(&case.fits[radar], &case.motion, &mount, &figures));
-    let along = by_lidar && is_way_told(case, radar);
-    let by_speeds = !by_lidar && timed.is_some_and(|clock| clock.is_sharp);
-    [by_lidar || by_doppler, along, by_lidar, along || by_speeds]
-}
-
-/// Whether the LiDAR tells how far along the way a radar's detections lie: clearly fewer lie beside its points farther
-/// ahead and farther back. Along guard rails and walls as many do, and more the nearer they come to the LiDAR.
-fn is_way_told(case: &Case, radar: usize) -> bool {
-    let share = |metres: f64| case.overlap(radar, &SensorChange::shift(metres, 0.0), Measure::Beside).share();
-    let steps = (WAY.0 / WAY.1).round() as i32;
-    let tried = (-steps..=steps).map(|i| f64::from(i) * WAY.1).map(|metres| (share(metres), metres));
-    let best = tried.max_by(|a, b| a.0.total_cmp(&b.0));
-    best.is_some_and(|(most, at)| [-FOOT, FOOT].iter().all(|side| most > PEAK * share(at + side)))
+    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || timed.is_some_and(|clock| clock.is_sharp)]
 }
