@@ -28,6 +28,7 @@ mod overlap;
 mod picture;
 mod plan_field;
 mod remedy;
+mod returns;
 mod sample;
 mod statistics;
 mod velocity_fit;

@@ -1,7 +1,8 @@
 //! LiDAR scans that show no road: read as something else, they may show one.
 
 use crate::ground::{self, GroundFit, OFFSET, SUPPORT, TILT_DEG};
-use ralf::sensors::{LidarScan, is_return};
+use crate::returns::some_returns;
+use ralf::sensors::LidarScan;
 use ralf::space::{Point, Transform};
 use std::collections::HashSet;
 
@@ -39,16 +40,13 @@ impl Misread {
         let point = |[x, y, z]: [f32; 3]| Point::new(x.into(), y.into(), z.into());
         match self {
             Self::InVehicleFrame => {
-                let step = read.points.len().div_ceil(POINTS).max(1);
-                let kept = read.points.iter().step_by(step).filter(|p| is_return(p));
-                kept.map(|p| point(*p)).collect()
+                some_returns(read.points.iter().copied(), POINTS).into_iter().map(point).collect()
             }
             Self::Columns(columns) => {
                 let rows = read.points.iter().zip(&read.intensity);
                 let numbers: Vec<f32> = rows.flat_map(|([x, y, z], last)| [*x, *y, *z, *last]).collect();
                 let rows = numbers.chunks_exact(columns).map(|row| [row[0], row[1], row[2]]);
-                let step = (numbers.len() / columns).div_ceil(POINTS).max(1);
-                rows.step_by(step).filter(is_return).map(|p| mount * point(p)).collect()
+                some_returns(rows, POINTS).into_iter().map(|p| mount * point(p)).collect()
             }
         }
     }

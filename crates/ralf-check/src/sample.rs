@@ -4,6 +4,7 @@ use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
 use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
+use crate::returns::some_returns;
 use crate::velocity_fit::{COMPENSATED, RAW, TRUSTED, Told, VelocityFit, fit, told};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
 use ralf::space::{Point, Vector};
@@ -18,6 +19,8 @@ pub(crate) const LAG_NS: i64 = 500_000_000;
 const RADAR_SCANS: usize = 120;
 /// Points kept of a LiDAR scan.
 const LIDAR_POINTS: usize = 60_000;
+/// Points of a scan whose numbers are looked at.
+const SHAPE_POINTS: usize = 5000;
 /// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
 const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
 /// Which quantile of the beams' slopes counts as the steepest, so that a few odd points don't; of about so many points.
@@ -263,10 +266,9 @@ impl LidarLook {
         let mut hasher = DefaultHasher::new();
         read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
-        let step = read.points.len().div_ceil(LIDAR_POINTS).max(1);
-        let kept = read.points.iter().step_by(step).filter(|point| is_return(point));
+        let kept = some_returns(read.points.iter().copied(), LIDAR_POINTS);
         let points: Vec<Point> =
-            kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
+            kept.into_iter().map(|[x, y, z]| mount * Point::new(x.into(), y.into(), z.into())).collect();
         let lidar_at: Point = mount.translation.vector.into();
         let ground = ground::fit(&points, &lidar_at);
         let misread = if ground.is_some() { Vec::new() } else { misread(read, &mount) };
@@ -327,17 +329,16 @@ pub(crate) fn is_absurd(value: &f64) -> bool {
 
 impl CloudShape {
     fn of(points: &[[f32; 3]]) -> Self {
-        let step = points.len().div_ceil(5000).max(1);
-        let looked: Vec<&[f32; 3]> = points.iter().step_by(step).collect();
-        let returns: Vec<[f64; 3]> =
-            looked.iter().filter(|p| is_return(p)).map(|p| p.map(f64::from)).collect();
+        let all = points.iter().filter(|point| is_return(point)).count();
+        let looked = some_returns(points.iter().copied(), SHAPE_POINTS);
+        let returns: Vec<[f64; 3]> = looked.iter().map(|p| p.map(f64::from)).collect();
         let norm = |p: &[f64; 3]| p[0].hypot(p[1]).hypot(p[2]);
         let share = |count: usize, of: usize| if of == 0 { 0.0 } else { count as f64 / of as f64 };
         let ranges: Vec<f64> = returns.iter().map(norm).collect();
         let steep = |p: &&[f64; 3]| p[2].abs() > p[0].hypot(p[1]);
         Self {
             points: points.len(),
-            returns: share(returns.len(), looked.len()),
+            returns: share(all, points.len()),
             range: crate::statistics::median(&ranges).unwrap_or(0.0),
             steep: share(returns.iter().filter(steep).count(), returns.len()),
             absurd: share(

@@ -28,6 +28,7 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
     let doubt = |evidence: String, remedy| Verdict::doubt(&lidar.name, Question::Bounds, evidence, remedy);
     let (points, absurd) = (of(|look| look.shape.points as f64), of(|look| look.shape.absurd));
     let (steep, range) = (of(|look| look.shape.steep), of(|look| look.shape.range));
+    let returns = of(|look| look.shape.returns);
     if looks.is_empty() || points < 50.0 {
         let missing = format!("{} scans of {points:.0} points; 50 points are needed", looks.len());
         verdicts.push(Verdict::cannot_judge(&lidar.name, Question::Bounds, missing));
@@ -35,7 +36,7 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
         let share = absurd * 100.0;
         let evidence = format!("{share:.0} % of the coordinates are beyond 1000 km or closer to 0 than 1 um");
         verdicts.push(doubt(evidence, Some(Remedy::LookInto(OTHER_TYPE))));
-    } else if !RANGES.contains(&range) {
+    } else if returns > 0.0 && !RANGES.contains(&range) {
         let factor = [0.01, 0.001].into_iter().find(|factor| RANGES.contains(&(range * factor)));
         verdicts.push(doubt(
             format!("half of the points lie beyond {range:.1} m"),

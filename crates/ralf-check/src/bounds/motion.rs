@@ -18,8 +18,16 @@ const DEGREES: f64 = 6.0;
 const JUMP: (f64, f64) = (4.0, 1.0);
 /// Between samples, ns: the vehicle does what it likes in a longer time.
 const GAP_NS: i64 = 1_000_000_000;
+/// In a shorter time a pose's own noise is a speed, ns.
+const SHORTEST_NS: i64 = 10_000_000;
 /// Scans may lie outside the motion's span by this, ns.
 const OUTSIDE_NS: i64 = 250_000_000;
+/// From one sample of odometry to the next speeds change by so much at most, m/s, and so much more for each second
+/// between them: twice what brakes do. The same of yaw rates, rad/s.
+const LEAP: (f64, f64) = (3.0, 20.0);
+const TURN_LEAP: (f64, f64) = (1.0, 5.0);
+/// More leaps among samples than this are another unit's.
+const SELDOM: f64 = 0.1;
 /// Samples of a moving vehicle that may repeat the last, share.
 const SAME: f64 = 0.9;
 /// No foot and no wheel is steady to the last bit for so long, s.
@@ -34,6 +42,7 @@ pub(super) fn judge(sequence: &Sequence) -> Vec<Verdict> {
         verdicts.extend(coverage(&told, &scans));
         verdicts.extend(rates(&told));
     }
+    verdicts.extend(leaps(motion, &scans));
     verdicts.extend(stuck(motion));
     verdicts.extend(poses.jumps());
     verdicts.extend(attitude::judge(motion.poses()));
@@ -122,6 +131,40 @@ fn rates(told: &Told) -> Vec<Verdict> {
     found
 }
 
+/// Odometry that leaps, as to the largest number that a bus can tell for what it doesn't know: the world is somewhere
+/// else from then on. Where it leaps all the time, its unit is another one.
+fn leaps(motion: &EgoMotion, scans: &[i64]) -> Option<Verdict> {
+    let (first, last) = (scans.iter().min()?, scans.iter().max()?);
+    let span = first.saturating_sub(GAP_NS)..=last.saturating_add(GAP_NS);
+    let leaps = |pair: &&[OdometrySample]| {
+        let seconds = (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9;
+        let beyond = |of: fn(&OdometrySample) -> f64, (always, each_second): (f64, f64)| {
+            (of(&pair[1]) - of(&pair[0])).abs() > always + each_second * seconds
+        };
+        span.contains(&pair[1].t_ns)
+            && (beyond(|sample| sample.velocity, LEAP) || beyond(|sample| sample.yaw_rate, TURN_LEAP))
+    };
+    let samples = motion.odometry();
+    let found: Vec<&[OdometrySample]> = samples.windows(2).filter(leaps).collect();
+    let [before, after] = *found.first()? else { return None };
+    if found.len() as f64 > SELDOM * samples.len() as f64 {
+        return None;
+    }
+    let told = |sample: &OdometrySample| [sample.velocity, sample.yaw_rate].map(number);
+    let ([v, turn], [then, turn_then]) = (told(before), told(after));
+    let evidence = format!(
+        "odometry leaps {} times as no vehicle does: from {v} m/s and {turn} rad/s to {then} and {turn_then} at {} ns",
+        found.len(),
+        after.t_ns
+    );
+    Some(doubt(evidence, Some(Remedy::LookInto("leave out the samples that are none"))))
+}
+
+/// With four digits; what is too large for any use as a power of ten.
+fn number(value: f64) -> String {
+    if value.abs() < 1e6 { format!("{value:.4}") } else { format!("{value:.3e}") }
+}
+
 fn stuck(motion: &EgoMotion) -> Option<Verdict> {
     let samples = motion.odometry();
     let moving = |pair: &&[OdometrySample]| pair[1].velocity.abs() > 0.5;
@@ -153,7 +196,7 @@ struct Poses<'a> {
 
 impl<'a> Poses<'a> {
     fn of(poses: &'a [PoseSample]) -> Self {
-        let mut steps: Vec<Step> = poses.windows(2).filter_map(step).collect();
+        let mut steps = steps(poses);
         let speeds: Vec<f64> = steps.iter().map(|step| step.twist[0]).collect();
         for (i, step) in steps.iter_mut().enumerate() {
             let around = &speeds[i.saturating_sub(3)..(i + 4).min(speeds.len())];
@@ -181,11 +224,18 @@ impl<'a> Poses<'a> {
     }
 }
 
-/// The step between two poses; none between those that have all but the same time.
-fn step(pair: &[PoseSample]) -> Option<Step> {
-    let dt = (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9;
-    let step = pair[0].odom_from_vehicle.inv_mul(&pair[1].odom_from_vehicle);
-    let length = step.translation.vector.norm();
-    let twist = [length / dt, step.rotation.scaled_axis().z / dt];
-    (dt > 0.01).then_some(Step { length, twist, jumped: false })
+/// The steps from one pose to the next that is clearly later: of 100 poses a second every other.
+fn steps(poses: &[PoseSample]) -> Vec<Step> {
+    let mut from = poses.first();
+    let mut steps = Vec::new();
+    for to in poses {
+        let Some(before) = from.filter(|before| to.t_ns - before.t_ns > SHORTEST_NS) else { continue };
+        let seconds = (to.t_ns - before.t_ns) as f64 * 1e-9;
+        let step = before.odom_from_vehicle.inv_mul(&to.odom_from_vehicle);
+        let length = step.translation.vector.norm();
+        let twist = [length / seconds, step.rotation.scaled_axis().z / seconds];
+        steps.push(Step { length, twist, jumped: false });
+        from = Some(to);
+    }
+    steps
 }

@@ -24,6 +24,8 @@ const REPEATED: f64 = 0.05;
 const ABSURD: f64 = 0.2;
 /// Fewer detections than this tell nothing of a distribution.
 const FEWEST: usize = 30;
+/// In fewer scans nothing may be there.
+const SCANS: usize = 5;
 
 pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> Vec<Verdict> {
     if let Some(verdict) = other_type(&radar.name, looks) {
@@ -31,6 +33,7 @@ pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> V
     }
     let mut verdicts = Vec::new();
     let all: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.spherical).copied().collect();
+    verdicts.extend(silent(&radar.name, looks));
     verdicts.extend(repeated(&radar.name, looks));
     verdicts.extend(not_finite(&radar.name, looks));
     verdicts.extend(without_numbers(radar, looks, motion));
@@ -67,6 +70,14 @@ fn other_type(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
     let evidence =
         format!("{share:.0} % of the detections have ranges beyond 1000 km or closer to 0 than 1 um");
     Some(doubt(name, evidence, Some(Remedy::LookInto(OTHER_TYPE))))
+}
+
+/// A radar that has detected nothing at all, which none does.
+fn silent(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
+    let is_silent = looks.len() >= SCANS && looks.iter().all(|look| look.rows == 0);
+    let evidence = format!("nothing was detected in {} scans", looks.len());
+    let look_into = Remedy::LookInto("are its files empty, as of a copy that broke off?");
+    is_silent.then(|| doubt(name, evidence, Some(look_into)))
 }
 
 fn repeated(name: &str, looks: &[RadarLook]) -> Option<Verdict> {

@@ -125,6 +125,21 @@ fn good_recordings_raise_nothing() {
     }
 }
 
+/// A driver's second echoes lie between the first ones, and most are none.
+#[test]
+fn returns_with_as_many_rows_of_nothing_between_them_raise_nothing() {
+    let mut planted = Planted::new(&Recording::of(STRAIGHT, 120, 1));
+    planted.sequence.rig.cameras.clear();
+    planted.sequence.times.cameras.clear();
+    planted.edit_lidar(|scan| {
+        let rows = scan.points.iter().flat_map(|point| [[f32::NAN; 3], *point, [0.0; 3], [f32::NAN; 3]]);
+        scan.points = rows.collect();
+        scan.intensity = scan.intensity.iter().flat_map(|value| [*value; 4]).collect();
+        scan.times = scan.times.as_ref().map(|times| times.iter().flat_map(|time| [*time; 4]).collect());
+    });
+    assert_eq!(told(&check(&planted)), "");
+}
+
 /// A recording with neither LiDAR nor range rates but for the radars that are told.
 fn without_lidar(base: &Arc<Recording>, with_range_rates: &[usize]) -> Planted {
     let mut planted = Planted::new(base);

@@ -82,9 +82,9 @@ impl<'a> Evidence<'a> {
         self.parts(values, &self.on_fronts(values))
     }
 
-    /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections lie
-    /// on fronts than a little farther ahead and back. Along guard rails and walls as many do, and more the nearer they
-    /// come to the LiDAR, which sees more there.
+    /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections
+    /// lie on fronts than a little farther ahead and back. Along guard rails and walls as many do, and more the nearer
+    /// they come to the LiDAR, which sees more there.
     pub(super) fn tells_along(&self, values: &Values) -> bool {
         let on_fronts = |metres: f64| -> f64 {
             let moved = values + self::values(&SensorChange::shift(metres, 0.0));

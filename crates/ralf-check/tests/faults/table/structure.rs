@@ -1,8 +1,8 @@
 //! What was read as something else, or not at all.
 
 use super::planting::times;
-use super::{FRONT, Fault};
-use ralf::space::EgoMotion;
+use super::{FRONT, Fault, MS};
+use ralf::space::{EgoMotion, PoseSample};
 use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
@@ -51,6 +51,34 @@ pub(super) fn faults() -> Vec<Fault> {
             let first = p.sequence.motion.odometry()[0];
             p.edit_odometry(move |s| (s.velocity, s.yaw_rate) = (first.velocity, first.yaw_rate));
         }),
+        fault!("one sample of odometry is a bus's largest number", ["motion"], true, |p| p.replace_odometry(
+            |samples| {
+                let middle = samples.len() / 2;
+                samples[middle].velocity = 655.35;
+            }
+        )),
+        fault!("a yaw rate of 3 rad/s for a tenth of a second", ["motion"], true, |p| p.replace_odometry(
+            |samples| {
+                let middle = samples.len() / 2;
+                let until = samples[middle].t_ns + 100 * MS;
+                let spell = samples[middle..].iter_mut().take_while(|sample| sample.t_ns < until);
+                spell.for_each(|sample| sample.yaw_rate = 3.0);
+            }
+        )),
+        fault!("poses jump, 200 a second", ["motion"], true, |p| {
+            p.add_poses();
+            p.replace_poses(|poses| *poses = closer(poses));
+            p.replace_poses(|poses| {
+                let second_half = poses.len() / 2..;
+                let moved = poses[second_half].iter_mut();
+                moved.for_each(|pose| pose.odom_from_vehicle.translation.vector.x += 10.0);
+            });
+        }),
+        fault!("nothing is detected", ["radar_rear"], true, |p| p.edit_radars(|radar, _, columns| {
+            if radar == 3 {
+                columns.iter_mut().for_each(Vec::clear);
+            }
+        })),
         fault!("odometry ends halfway", ["motion"], true, |p| {
             let samples = p.sequence.motion.odometry().to_vec();
             let half = samples.len() / 2;
@@ -71,6 +99,19 @@ pub(super) fn faults() -> Vec<Fault> {
         )),
         fault!("yaw rate 10 times too large", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate *= 10.0)),
     ]
+}
+
+/// Ten poses for each: between two of them the vehicle goes on evenly.
+fn closer(poses: &[PoseSample]) -> Vec<PoseSample> {
+    let between = |pair: &[PoseSample]| {
+        let [first, second] = [pair[0], pair[1]];
+        let part = move |i: i64| PoseSample {
+            t_ns: first.t_ns + (second.t_ns - first.t_ns) * i / 10,
+            odom_from_vehicle: first.odom_from_vehicle.lerp_slerp(&second.odom_from_vehicle, i as f64 / 10.0),
+        };
+        (0..10).map(part)
+    };
+    poses.windows(2).flat_map(between).chain(poses.last().copied()).collect()
 }
 
 /// The numbers of a scan as float64 that are read as float32: twice as many rows.
