@@ -19,6 +19,8 @@ use std::f64::consts::PI;
 const SLIPPED_DEG: f64 = 12.0;
 /// Exchanged axes leave less than this share of what is left with another yaw.
 const EXCHANGED_GAIN: f64 = 0.6;
+/// No more than this is what walls do, m.
+const SMALL_SHIFT: f64 = 0.5;
 /// Scans of a standing vehicle whose world moves.
 pub(super) const CREEPING: usize = 3;
 
@@ -185,7 +187,10 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
     }
     let elsewhere = case.elsewhere(radar);
     let found = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally);
-    let Some((found, then)) = found.filter(|(_, then)| then.is_above_chance(&elsewhere)) else {
+    let is_its_own = |(change, then): &(SensorChange, Tally)| {
+        then.is_above_chance(&elsewhere) && !is_of_the_walls(case, radar, change)
+    };
+    let Some((found, then)) = found.filter(is_its_own) else {
         return unseen::judge(case, radar, &now).unwrap_or_else(|| same_world(&now, &elsewhere, name));
     };
     if found == SensorChange::exchange() {
@@ -197,6 +202,16 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
         Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
     case.radar_changes[radar] = case.radar_changes[radar].and(&change);
     Verdict { state: State::Doubt, ..verdict }
+}
+
+/// Whether a small shift to a side is that of walls on both sides, before which radars hear things that a LiDAR doesn't
+/// see: another radar asks for the opposite then.
+fn is_of_the_walls(case: &Case, radar: usize, change: &SensorChange) -> bool {
+    let [_, aside, _] = change.shift_m;
+    let opposite = SensorChange::shift(0.0, -aside);
+    let tally = |other: usize, change: &SensorChange| case.overlap(other, change, Measure::Beside);
+    let asks = |other: usize| tally(other, &SensorChange::default()).is_beaten_by(&tally(other, &opposite));
+    aside != 0.0 && aside.abs() <= SMALL_SHIFT && case.radars().filter(|other| *other != radar).any(asks)
 }
 
 /// As recorded, more has to lie beside LiDAR points than where the radar looks elsewhere.
