@@ -118,7 +118,7 @@ pub(crate) fn check_codes(
     names: usize,
 ) -> Result<(), DataError> {
     if codes.len() != detections {
-        let expected = format!("{detections} as in its ground truth");
+        let expected = format!("{detections}, one for each detection of its scan");
         return Err(DataError::content(file, "number of codes", expected, codes.len().to_string()));
     }
     let Some(row) = codes.iter().position(|code| usize::from(*code) >= names) else { return Ok(()) };
@@ -150,7 +150,10 @@ mod tests {
         assert_eq!(causes.of_scan(&scan(3), 3).unwrap(), Some(vec![0, 2, 1]));
         assert_eq!(causes.of_scan(&scan(4), 3).unwrap(), None);
         let error = causes.of_scan(&scan(3), 4).unwrap_err().to_string();
-        assert!(error.ends_with("number of codes: expected 4 as in its ground truth, found 3"), "{error}");
+        assert!(
+            error.ends_with("number of codes: expected 4, one for each detection of its scan, found 3"),
+            "{error}"
+        );
         write(&truth.join("front/000003.cause"), &[0, 3, 1]);
         let error = causes.of_scan(&scan(3), 3).unwrap_err().to_string();
         assert!(error.ends_with("byte 1: expected a code below 3, as in causes.txt, found 3"), "{error}");

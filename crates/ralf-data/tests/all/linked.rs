@@ -35,7 +35,11 @@ fn labels_causes_and_images_that_lead_to_another_file_are_not_copied() {
             "size: expected 2 uint32, one per detection, found 8",
             None,
         ),
-        ("ground_truth/radar_front/000000.cause", "number of codes: expected 2 as in its", Some(&[0, 1][..])),
+        (
+            "ground_truth/radar_front/000000.cause",
+            "number of codes: expected 2, one for each",
+            Some(&[0, 1][..]),
+        ),
         ("lidar_top/000000.label", "size: expected 2 uint32, one per point", None),
         ("camera_front/000000.png", "content: expected a whole JPEG or PNG image", None),
     ] {

@@ -26,7 +26,7 @@ Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 --radar radar_front --radius 40 -o front.png
   ralf plot recordings/city out --sequence 00 --scan 17 --color-by lidar_window_beyond -o free.png
   ralf plot recordings/city out --sequence 00 --all -o overview.png
-  ralf plot recordings/city out --sequence 00 --scan 17 --camera front -o camera.png")]
+  ralf plot recordings/city out --sequence 00 --scan 17 --camera camera_front -o camera.png")]
 pub(crate) struct PlotArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
