@@ -1,5 +1,6 @@
 //! The ground that a LiDAR sees: how far it is tilted and shifted against the vehicle's z = 0.
 
+use crate::thinning::some;
 use ralf::config::{GroundConfig, GroundModel};
 use ralf::scene::Ground;
 use ralf::space::Point;
@@ -63,8 +64,7 @@ pub(crate) fn fit(points: &[Point], lidar: &Point) -> Option<GroundFit> {
         .filter(|p| p.coords.xy().norm() < NEAR && lidar.z - p.z > BELOW * (*p - lidar).xy().norm())
         .map(|p| [p.x as f32, p.y as f32, p.z as f32])
         .collect();
-    let step = near.len().div_ceil(POINTS).max(1);
-    let thin: Vec<[f32; 3]> = near.into_iter().step_by(step).collect();
+    let thin: Vec<[f32; 3]> = some(&near, POINTS).copied().collect();
     let widest = plane(&thin, WIDEST)?;
     let path: Vec<[f32; 3]> = thin.iter().filter(|p| f64::from(p[1].abs()) < PATH).copied().collect();
     let is_driven_on = |road: &Ground| on(road, &path) as f64 > DRIVEN_ON * on(&widest, &path).max(1) as f64;

@@ -1,7 +1,7 @@
 //! LiDAR scans that show no road: read as something else, they may show one.
 
 use crate::ground::{self, GroundFit, OFFSET, SUPPORT, TILT_DEG};
-use crate::returns::some_returns;
+use crate::thinning::{returns, some};
 use ralf::sensors::LidarScan;
 use ralf::space::{Point, Transform};
 use std::collections::HashSet;
@@ -37,16 +37,14 @@ pub(crate) fn misread(read: &LidarScan, mount: &Transform) -> Vec<Misread> {
 impl Misread {
     /// Points in the vehicle frame, m, by this reading.
     fn points(self, read: &LidarScan, mount: &Transform) -> Vec<Point> {
-        let point = |[x, y, z]: [f32; 3]| Point::new(x.into(), y.into(), z.into());
+        let point = |[x, y, z]: &[f32; 3]| Point::new((*x).into(), (*y).into(), (*z).into());
         match self {
-            Self::InVehicleFrame => {
-                some_returns(read.points.iter().copied(), POINTS).into_iter().map(point).collect()
-            }
+            Self::InVehicleFrame => some(&returns(read.points.iter().copied()), POINTS).map(point).collect(),
             Self::Columns(columns) => {
                 let rows = read.points.iter().zip(&read.intensity);
                 let numbers: Vec<f32> = rows.flat_map(|([x, y, z], last)| [*x, *y, *z, *last]).collect();
                 let rows = numbers.chunks_exact(columns).map(|row| [row[0], row[1], row[2]]);
-                some_returns(rows, POINTS).into_iter().map(|p| mount * point(p)).collect()
+                some(&returns(rows), POINTS).map(|p| mount * point(p)).collect()
             }
         }
     }

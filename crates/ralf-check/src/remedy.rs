@@ -5,6 +5,8 @@ use serde::Serialize;
 
 /// Whose numbers are no positions, and of which nothing else can be asked, has one of these to be looked into.
 pub(crate) const OTHER_TYPE: &str = "its file holds numbers of another type";
+/// What nothing came back of, or nothing was detected in, has this.
+pub(crate) const EMPTY_FILES: &str = "are its files empty, as of a copy that broke off?";
 pub(crate) const OTHER_ORDER: &str =
     "the numbers of quaternions look like w, x, y, z: x, y, z, w are expected";
 pub(crate) const OTHER_WAY: &str =

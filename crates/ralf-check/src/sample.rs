@@ -4,9 +4,9 @@ use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
 use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
-use crate::returns::some_returns;
+use crate::thinning::{returns, some};
 use crate::velocity_fit::{COMPENSATED, RAW, TRUSTED, Told, VelocityFit, fit, told};
-use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
+use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -266,9 +266,10 @@ impl LidarLook {
         let mut hasher = DefaultHasher::new();
         read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
-        let kept = some_returns(read.points.iter().copied(), LIDAR_POINTS);
+        let returns = returns(read.points.iter().copied());
+        let kept = some(&returns, LIDAR_POINTS);
         let points: Vec<Point> =
-            kept.into_iter().map(|[x, y, z]| mount * Point::new(x.into(), y.into(), z.into())).collect();
+            kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
         let lidar_at: Point = mount.translation.vector.into();
         let ground = ground::fit(&points, &lidar_at);
         let misread = if ground.is_some() { Vec::new() } else { misread(read, &mount) };
@@ -280,12 +281,11 @@ impl LidarLook {
             true => (depth_edges(&points, &mount, stands), every_so_many(&points, SEEN)),
             false => (Vec::new(), Vec::new()),
         };
-        let step = obstacles.len().div_ceil(PROBES).max(1);
         let away: Vec<Point> = points.iter().filter(|p| (*p - lidar_at).norm() > VEHICLE).copied().collect();
         Self {
             lidar,
             t_ns: read.t_ns,
-            probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
+            probes: some(&obstacles, PROBES).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
             seen,
@@ -293,7 +293,7 @@ impl LidarLook {
             steepest: steepest(&away, &lidar_at),
             ground,
             misread,
-            shape: CloudShape::of(&read.points),
+            shape: CloudShape::of(&returns, read.points.len()),
             digest: hasher.finish(),
         }
     }
@@ -328,23 +328,19 @@ pub(crate) fn is_absurd(value: &f64) -> bool {
 }
 
 impl CloudShape {
-    fn of(points: &[[f32; 3]]) -> Self {
-        let all = points.iter().filter(|point| is_return(point)).count();
-        let looked = some_returns(points.iter().copied(), SHAPE_POINTS);
-        let returns: Vec<[f64; 3]> = looked.iter().map(|p| p.map(f64::from)).collect();
+    /// Of what came back of so many points.
+    fn of(returns: &[[f32; 3]], points: usize) -> Self {
+        let looked: Vec<[f64; 3]> = some(returns, SHAPE_POINTS).map(|p| p.map(f64::from)).collect();
         let norm = |p: &[f64; 3]| p[0].hypot(p[1]).hypot(p[2]);
         let share = |count: usize, of: usize| if of == 0 { 0.0 } else { count as f64 / of as f64 };
-        let ranges: Vec<f64> = returns.iter().map(norm).collect();
+        let ranges: Vec<f64> = looked.iter().map(norm).collect();
         let steep = |p: &&[f64; 3]| p[2].abs() > p[0].hypot(p[1]);
         Self {
-            points: points.len(),
-            returns: share(all, points.len()),
+            points,
+            returns: share(returns.len(), points),
             range: crate::statistics::median(&ranges).unwrap_or(0.0),
-            steep: share(returns.iter().filter(steep).count(), returns.len()),
-            absurd: share(
-                returns.iter().flatten().filter(|value| is_absurd(value)).count(),
-                3 * returns.len(),
-            ),
+            steep: share(looked.iter().filter(steep).count(), looked.len()),
+            absurd: share(looked.iter().flatten().filter(|value| is_absurd(value)).count(), 3 * looked.len()),
         }
     }
 }

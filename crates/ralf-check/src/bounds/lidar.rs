@@ -1,7 +1,7 @@
 //! A LiDAR's numbers: whether they were read as what they are.
 
 use super::out_of_reason;
-use crate::remedy::{LOWEST_BEAM, OTHER_TYPE, Remedy};
+use crate::remedy::{EMPTY_FILES, LOWEST_BEAM, OTHER_TYPE, Remedy};
 use crate::sample::LidarLook;
 use crate::statistics::median;
 use crate::verdict::{Question, Verdict};
@@ -83,7 +83,7 @@ fn broken(lidar: &Lidar, looks: &[&LidarLook], points: f64) -> impl Iterator<Ite
     let silent = looks.iter().filter(|look| look.shape.returns == 0.0).count();
     let nothing = (silent > 0).then(|| {
         let evidence = format!("nothing came back in {silent} of {} scans", looks.len());
-        doubt(evidence, "are its files empty, as of a copy that broke off?")
+        doubt(evidence, EMPTY_FILES)
     });
     let same = looks.windows(2).filter(|pair| pair[0].digest == pair[1].digest && points >= 50.0).count();
     let stuck = (same > 0).then(|| {

@@ -2,7 +2,7 @@
 
 use super::out_of_reason;
 use crate::doppler::{STANDING, predicted};
-use crate::remedy::{LENGTHS, OTHER_TYPE, Remedy};
+use crate::remedy::{EMPTY_FILES, LENGTHS, OTHER_TYPE, Remedy};
 use crate::sample::{RadarLook, is_absurd};
 use crate::statistics::{median, quantile, wrapped};
 use crate::verdict::{Question, State, Verdict};
@@ -76,7 +76,7 @@ fn other_type(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
 fn silent(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
     let is_silent = looks.len() >= SCANS && looks.iter().all(|look| look.rows == 0);
     let evidence = format!("nothing was detected in {} scans", looks.len());
-    let look_into = Remedy::LookInto("are its files empty, as of a copy that broke off?");
+    let look_into = Remedy::LookInto(EMPTY_FILES);
     is_silent.then(|| doubt(name, evidence, Some(look_into)))
 }
 

@@ -58,6 +58,15 @@ pub enum LearnError {
     Use(#[from] UseError),
 }
 
+impl LearnError {
+    /// Refuses what is all plausible or all artifacts.
+    pub(super) fn of_one_class(target: impl Iterator<Item = bool>) -> Result<(), Self> {
+        let [mut plausible, mut artifacts] = [0; 2];
+        target.for_each(|is_plausible| *if is_plausible { &mut plausible } else { &mut artifacts } += 1);
+        if plausible > 0 && artifacts > 0 { Ok(()) } else { Err(Self::OneClass { plausible, artifacts }) }
+    }
+}
+
 /// The share of scans that lack a group of evidence, for a net: as many as for trees, in the mean.
 const BLANKED: f64 = 0.1;
 
@@ -120,11 +129,7 @@ pub fn fit(
 }
 
 fn refuse_what_cannot_be_learned(table: &TrainingTable) -> Result<(), LearnError> {
-    let plausible = table.known.iter().filter(|known| known.plausible).count();
-    let artifacts = table.len() - plausible;
-    if plausible == 0 || artifacts == 0 {
-        return Err(LearnError::OneClass { plausible, artifacts });
-    }
+    LearnError::of_one_class(table.known.iter().map(|known| known.plausible))?;
     // Of some nothing may be known: without rows, they are none.
     let worlds = table.known.iter().map(|known| known.world).collect::<BTreeSet<_>>().len();
     if worlds < 2 {

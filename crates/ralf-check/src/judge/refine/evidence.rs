@@ -88,11 +88,11 @@ impl<'a> Evidence<'a> {
     pub(super) fn tells_along(&self, values: &Values) -> bool {
         let on_fronts = |metres: f64| -> f64 {
             let moved = values + self::values(&SensorChange::shift(metres, 0.0));
-            self.likelihoods(&moved).iter().flat_map(|kinds| &kinds[1..]).sum()
+            self.on_fronts(&moved).iter().flat_map(|moment| moment.bands).sum()
         };
         let there = on_fronts(0.0);
         let aside = ASIDE.iter().map(|metres| on_fronts(*metres)).sum::<f64>() / ASIDE.len() as f64;
-        there - aside > CLEARLY * (LIDAR_WEIGHT * there).sqrt()
+        there - aside > CLEARLY * there.sqrt()
     }
 
     /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of

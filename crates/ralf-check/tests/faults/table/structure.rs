@@ -6,6 +6,11 @@ use ralf::space::{EgoMotion, PoseSample};
 use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
+    [of_scans(), of_motion()].into_iter().flatten().collect()
+}
+
+/// Of LiDARs and radars.
+fn of_scans() -> Vec<Fault> {
     vec![
         fault!("LiDAR rows of 4 read as 5", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
             let intensity = scan.intensity.clone();
@@ -47,6 +52,30 @@ pub(super) fn faults() -> Vec<Fault> {
         )),
         fault!("radar stuck", ["radar_front"], true, |p| p.stuck_radar = Some(FRONT)),
         fault!("LiDAR stuck", ["lidar_top"], true, |p| p.stuck_lidar = true),
+        fault!("nothing is detected", ["radar_rear"], true, |p| p.edit_radars(|radar, _, columns| {
+            if radar == 3 {
+                columns.iter_mut().for_each(Vec::clear);
+            }
+        })),
+        fault!("elevation constant, said to be measured", ["radar_front"], true, |p| times(
+            p,
+            Some(FRONT),
+            &[2],
+            0.0
+        )),
+        fault!("a third of the detections not finite", ["radar_front"], true, |p| p.edit_radars(
+            |radar, _, columns| {
+                if radar == FRONT {
+                    columns[0].iter_mut().step_by(3).for_each(|v| *v = f32::NAN);
+                }
+            }
+        )),
+    ]
+}
+
+/// Of odometry and poses.
+fn of_motion() -> Vec<Fault> {
+    vec![
         fault!("odometry stuck", ["motion"], true, |p| {
             let first = p.sequence.motion.odometry()[0];
             p.edit_odometry(move |s| (s.velocity, s.yaw_rate) = (first.velocity, first.yaw_rate));
@@ -74,29 +103,11 @@ pub(super) fn faults() -> Vec<Fault> {
                 moved.for_each(|pose| pose.odom_from_vehicle.translation.vector.x += 10.0);
             });
         }),
-        fault!("nothing is detected", ["radar_rear"], true, |p| p.edit_radars(|radar, _, columns| {
-            if radar == 3 {
-                columns.iter_mut().for_each(Vec::clear);
-            }
-        })),
         fault!("odometry ends halfway", ["motion"], true, |p| {
             let samples = p.sequence.motion.odometry().to_vec();
             let half = samples.len() / 2;
             p.sequence.motion = EgoMotion::new(samples[..half].to_vec(), vec![]).unwrap();
         }),
-        fault!("elevation constant, said to be measured", ["radar_front"], true, |p| times(
-            p,
-            Some(FRONT),
-            &[2],
-            0.0
-        )),
-        fault!("a third of the detections not finite", ["radar_front"], true, |p| p.edit_radars(
-            |radar, _, columns| {
-                if radar == FRONT {
-                    columns[0].iter_mut().step_by(3).for_each(|v| *v = f32::NAN);
-                }
-            }
-        )),
         fault!("yaw rate 10 times too large", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate *= 10.0)),
     ]
 }

@@ -81,7 +81,7 @@ pub fn correct(
     }
     let says = Says::new(begin, table, &correcting.learned)?;
     let ground = Ground::new(begin, table, &says, correcting.threshold);
-    ground.check()?;
+    LearnError::of_one_class(ground.target.iter().copied())?;
     let folds = Folds::new(table);
     // One without each part, and the last with all.
     let left_out: Vec<Option<usize>> = (0..folds.count).map(Some).chain([None]).collect();
@@ -128,17 +128,6 @@ impl<'a> Ground<'a> {
             weights: both().map(|(known, _)| if known.said { 1.0 } else { LEFT_ALONE }).collect(),
             monotone: model.inputs.iter().map(|input| direction(&input.name)).collect(),
             begin: &says.at_last,
-        }
-    }
-
-    /// Nothing is learned from one class.
-    fn check(&self) -> Result<(), LearnError> {
-        let plausible = self.target.iter().filter(|plausible| **plausible).count();
-        let artifacts = self.target.len() - plausible;
-        if plausible > 0 && artifacts > 0 {
-            Ok(())
-        } else {
-            Err(LearnError::OneClass { plausible, artifacts })
         }
     }
 

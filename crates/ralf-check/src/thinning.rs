@@ -1,0 +1,14 @@
+//! A part of many points, to look at.
+
+use ralf::sensors::is_return;
+
+/// So many of some values, or all where they are fewer, evenly.
+pub(crate) fn some<T>(values: &[T], count: usize) -> impl Iterator<Item = &T> {
+    values.iter().step_by(values.len().div_ceil(count).max(1))
+}
+
+/// What came back of a LiDAR's scan. What didn't is left out before a part is looked at: it may be every second point,
+/// as in a driver's second echoes, and then every so many points are nothing else.
+pub(crate) fn returns(points: impl Iterator<Item = [f32; 3]>) -> Vec<[f32; 3]> {
+    points.filter(is_return).collect()
+}
