@@ -37,5 +37,5 @@ mod wheels;
 
 pub use change::{MotionChange, SensorChange};
 pub use judge::{Refinement, check, check_and_refine};
-pub use remedy::{Remedy, Setting};
+pub use remedy::{Remedy, Setting, toml_key};
 pub use verdict::{Question, RadarFigures, SequenceCheck, State, Verdict};

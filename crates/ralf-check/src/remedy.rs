@@ -11,6 +11,9 @@ pub(crate) const OTHER_ORDER: &str =
     "the numbers of quaternions look like w, x, y, z: x, y, z, w are expected";
 pub(crate) const OTHER_WAY: &str =
     "its mounting looks told the other way round: that of the vehicle in the sensor's frame";
+/// Whose scans lie in another order than their times has one of these, and nothing else can be asked of it either.
+pub(crate) const AS_TEXT: &str = "its scans look sorted by their numbers as text: 0, 1, 10, 11, 2";
+pub(crate) const BACKWARDS: &str = "its scans look sorted backwards, the last one first";
 
 /// The key of the angle at which a LiDAR's lowest beam looks down.
 pub(crate) const LOWEST_BEAM: &str = "lowest_beam_deg";
@@ -115,7 +118,7 @@ impl Remedy {
 }
 
 /// A sensor's name as a key of TOML: in quotes where it holds more than letters, digits, `-` and `_`.
-fn toml_key(name: &str) -> String {
+pub fn toml_key(name: &str) -> String {
     let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
     match !name.is_empty() && name.bytes().all(is_bare) {
         true => name.to_owned(),
@@ -207,7 +210,7 @@ fn unit_of_speed(factor: f64) -> String {
 }
 
 fn unit_of_length(factor: f64) -> String {
-    unit(factor, &LENGTHS)
+    unit(factor, &[&LENGTHS[..], &OTHER_LENGTHS].concat())
 }
 
 /// Units that speeds are given in by mistake, in m/s.
@@ -222,6 +225,13 @@ pub(crate) const SPEEDS: [(f64, &str); 6] = [
 
 /// Units that positions are given in by mistake, in m.
 pub(crate) const LENGTHS: [(f64, &str); 4] = [(0.01, "cm"), (0.001, "mm"), (0.3048, "feet"), (1000.0, "km")];
+
+/// Factors of positions that are no other unit's, in m.
+const OTHER_LENGTHS: [(f64, &str); 3] = [
+    (0.5, "twice the range: there and back"),
+    (2.0, "half the range: there or back"),
+    (1.0 / 0.3048, "m that were taken for feet"),
+];
 
 #[cfg(test)]
 mod tests {

@@ -6,7 +6,7 @@ use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
 use crate::thinning::{returns, some};
 use crate::velocity_fit::{COMPENSATED, RAW, TRUSTED, Told, VelocityFit, fit, told};
-use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source};
+use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, SourceError};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -67,6 +67,8 @@ pub(crate) struct RadarLook {
 #[derive(Debug, Clone)]
 pub(crate) struct LidarLook {
     pub(crate) lidar: usize,
+    /// Number in its timeline.
+    pub(crate) scan: usize,
     pub(crate) t_ns: i64,
     /// Obstacles above the ground, vehicle frame as recorded, m.
     pub(crate) probes: Vec<Point>,
@@ -157,14 +159,14 @@ impl Sample {
 
     fn read_lidar(&mut self, source: &dyn Source, lidar: usize, scan: usize) {
         match source.lidar_scan(lidar, scan) {
-            Ok(read) => self.lidars.push(LidarLook::of(source, lidar, &read)),
+            Ok(read) => self.lidars.push(LidarLook::of(source, (lidar, scan), &read)),
             Err(error) => self.unreadable.push(error.to_string()),
         }
     }
 
     fn read_radar(&mut self, source: &dyn Source, radar: usize, scan: usize) -> Option<RadarLook> {
-        match source.radar_scan(radar, scan) {
-            Ok(read) => Some(RadarLook::of(&source.sequence().rig.radars[radar], scan, &read)),
+        match RadarLook::read(source, radar, scan) {
+            Ok(look) => Some(look),
             Err(error) => {
                 self.unreadable.push(error.to_string());
                 None
@@ -197,6 +199,16 @@ pub(crate) fn nearest(times: &[i64], t_ns: i64) -> Option<usize> {
 }
 
 impl RadarLook {
+    pub(crate) fn read(source: &dyn Source, radar: usize, scan: usize) -> Result<Self, SourceError> {
+        let read = source.radar_scan(radar, scan)?;
+        Ok(Self::of(&source.sequence().rig.radars[radar], scan, &read))
+    }
+
+    /// The same scan where what stands still is read as lying elsewhere.
+    pub(crate) fn read_otherwise(&self, place: impl FnMut(&Point) -> Point) -> Self {
+        Self { standing: self.standing.iter().map(place).collect(), ..self.clone() }
+    }
+
     fn of(radar: &Radar, scan: usize, read: &RadarScan) -> Self {
         let mut hasher = DefaultHasher::new();
         read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
@@ -262,7 +274,7 @@ impl LidarLook {
         Moment { lidar: self.lidar, t_ns: self.t_ns, points: &self.seen }
     }
 
-    fn of(source: &dyn Source, lidar: usize, read: &LidarScan) -> Self {
+    fn of(source: &dyn Source, (lidar, scan): (usize, usize), read: &LidarScan) -> Self {
         let mut hasher = DefaultHasher::new();
         read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
@@ -284,6 +296,7 @@ impl LidarLook {
         let away: Vec<Point> = points.iter().filter(|p| (*p - lidar_at).norm() > VEHICLE).copied().collect();
         Self {
             lidar,
+            scan,
             t_ns: read.t_ns,
             probes: some(&obstacles, PROBES).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),

@@ -52,7 +52,8 @@ pub use mismatches::{SequenceMismatches, gather_mismatches};
 pub use not_used::NotUsed;
 pub use ralf_corrections::ContentHash;
 pub use read::{
-    LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_selected, open_with,
+    LayoutSequence, MotionSettings, Recording, SensorCorrection, SequenceReader, TruthLabels, formats, open,
+    open_selected, open_with,
 };
 pub use result::program;
 pub use settings::Settings;

@@ -160,5 +160,8 @@ fn decimals(values: Vec<f32>, width: usize) -> Column {
 fn place<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> PyResult<usize> {
     let names: Vec<&str> = names.collect();
     let found = names.iter().position(|name| *name == wanted);
-    found.ok_or_else(|| other(format!("expected one of {}, found {wanted}", names.join(", "))))
+    found.ok_or_else(|| match &names[..] {
+        [] => other(format!("expected a recording with such sensors, found none, and {wanted} wanted")),
+        names => other(format!("expected one of {}, found {wanted}", names.join(", "))),
+    })
 }

@@ -25,6 +25,7 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
         let mut found = Vec::from_iter(mountings.judge(&radar.name));
         found.extend(radar::judge(radar, looks, &sequence.motion));
         found.extend(timing::judge(&radar.name, times));
+        found.extend(timing::uneven(&radar.name, times));
         verdicts.extend(settled(&radar.name, found));
     }
     for (i, (lidar, times)) in rig.lidars.iter().zip(&times.lidars).enumerate() {
@@ -32,6 +33,7 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
         let mut found = Vec::from_iter(mountings.judge(&lidar.name));
         found.extend(lidar::judge(lidar, &looks));
         found.extend(timing::judge(&lidar.name, times));
+        found.extend(timing::uneven(&lidar.name, times));
         found.extend(timing::beside_radars(&lidar.name, times, radars));
         verdicts.extend(settled(&lidar.name, found));
     }

@@ -59,6 +59,46 @@ fn spacing(name: &str, times: &[i64]) -> Option<Verdict> {
     Some(Verdict::doubt(name, Question::Bounds, evidence, Some(remedy)))
 }
 
+/// Radars and LiDARs measure evenly: what lies aside of that by this share of a step, and by so much, s, has been given
+/// when it arrived. Of recorded radars half lie aside by less than a fiftieth.
+const UNEVEN: (f64, f64) = (0.12, 0.015);
+/// Fewer steps tell no beat.
+const STEPS: usize = 20;
+/// So many steps tell how long one is.
+const BEATS: usize = 8;
+/// Sensors with several modes go on evenly over so many steps.
+const MODES: usize = 4;
+
+/// A radar or LiDAR whose times have no beat.
+pub(super) fn uneven(name: &str, times: &[i64]) -> Option<Verdict> {
+    let over = |steps: usize| -> Vec<f64> {
+        times.windows(steps + 1).map(|w| w[steps].saturating_sub(w[0]) as f64 * 1e-9).collect()
+    };
+    let steps = over(1);
+    // Over several: of what arrives in bursts most steps are nothing.
+    let usual = median(&over(BEATS)).map(|of_some| of_some / BEATS as f64);
+    let usual = usual.filter(|usual| steps.len() >= STEPS && SPACING.contains(usual))?;
+    // Scans that were lost leave whole steps.
+    let whole = |step: &f64| (step - usual * (step / usual).round().max(1.0)).abs();
+    let aside = median(&steps.iter().map(whole).collect::<Vec<_>>());
+    let of_modes = (1..=MODES).map(|modes| {
+        let steps = over(modes);
+        let usual = median(&steps)?;
+        median(&steps.iter().map(|step| (step - usual).abs()).collect::<Vec<_>>())
+    });
+    let aside = of_modes.chain([aside]).flatten().min_by(f64::total_cmp)?;
+    if aside < UNEVEN.0 * usual || aside < UNEVEN.1 {
+        return None;
+    }
+    let evidence = format!(
+        "half of its times lie {:.0} ms and more aside of an even beat of {:.0} ms",
+        aside * 1e3,
+        usual * 1e3
+    );
+    let remedy = Remedy::LookInto("are they times of arrival? Those of the measurement are expected");
+    Some(Verdict::doubt(name, Question::Bounds, evidence, Some(remedy)))
+}
+
 /// Measurements that have the time of the one before: no sensor measures twice at once.
 fn equal(name: &str, times: &[i64]) -> Option<Verdict> {
     let same: Vec<usize> = (1..times.len()).filter(|i| times[*i] == times[i - 1]).collect();
@@ -85,5 +125,20 @@ mod tests {
             "2 of its 6 measurements have the time of the one before, first number 2 at 50000000 ns";
         assert_eq!(found[0].evidence, expected);
         assert_eq!(judge("radar", &[0, 50_000_000, 100_000_000, 150_000_000]), []);
+    }
+
+    /// So many times, each by a function of its number, ms.
+    fn at(time: impl Fn(i64) -> i64) -> Vec<i64> {
+        (0..60).map(|scan| time(scan) * 1_000_000).collect()
+    }
+
+    #[test]
+    fn times_of_arrival_have_no_beat() {
+        // Up to 90 ms late.
+        let late = uneven("radar", &at(|scan| 100 * scan + scan * scan * 17 % 91)).unwrap();
+        assert!(late.evidence.contains("aside of an even beat"), "{late:?}");
+        assert_eq!(uneven("radar", &at(|scan| 100 * scan + scan % 7)), None, "a scheduler's few ms");
+        assert_eq!(uneven("radar", &at(|scan| 100 * scan + 30 * (scan % 2))), None, "two modes in turn");
+        assert_eq!(uneven("radar", &at(|scan| 100 * (scan + scan / 5))), None, "scans are lost");
     }
 }

@@ -4,6 +4,7 @@ use super::alternatives::{GAIN, best, clocks, elsewhere, exact, shifts, yaws};
 use super::case::Case;
 use super::doppler::is_aligned;
 use super::places::{PLACES, by_place};
+use super::steady;
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Setup, Tally, changed_motion_overlap, overlap};
 use crate::remedy::Remedy;
@@ -27,7 +28,10 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     let mut verdicts = Vec::new();
     for lidar in 0..case.sequence.rig.lidars.len() {
         verdicts.extend(by_motion(case, lidar));
-        verdicts.extend(by_radars(case, lidar));
+        match steady::of_lidar(case, lidar) {
+            Some(verdict) => verdicts.push(verdict),
+            None => verdicts.extend(by_radars(case, lidar)),
+        }
     }
     verdicts
 }
@@ -92,8 +96,11 @@ fn by_radars(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let judged = now.iter().filter(|tally| tally.is_enough()).count();
     let changes = yaws().chain(shifts()).chain(clocks()).chain([SensorChange::mirror()]);
     let pooled = joined(now.clone());
-    if pooled.is_enough() && pooled.share() < APART {
-        return Some(apart(name, &pooled));
+    // Radars that look elsewhere by their own range rates see something else.
+    let looking = case.radars().zip(&now).filter(|(radar, _)| !is_askew(case, *radar));
+    let looking = joined(looking.map(|(_, tally)| tally.clone()).collect());
+    if looking.is_enough() && looking.share() < APART {
+        return Some(apart(name, &looking));
     }
     if judged < 2 {
         return None;
@@ -134,6 +141,12 @@ fn apart(name: &str, now: &Tally) -> Verdict {
 fn is_the_radars_own(case: &Case, found: &SensorChange) -> bool {
     let [aligned, askew] = by_range_rates(case);
     (found.turn_deg[2] != 0.0 || found.mirrored) && askew > aligned
+}
+
+/// Whether a radar's range rates say that it looks elsewhere than it is said to.
+fn is_askew(case: &Case, radar: usize) -> bool {
+    let figures = case.doppler(radar, &case.motion, &case.mount(radar));
+    figures.is_some_and(|figures| !is_aligned(&figures))
 }
 
 /// How many radars look where their range rates say, and how many don't.

@@ -14,44 +14,49 @@ mod ground;
 mod lidar;
 mod motion;
 mod neighbours;
+mod order;
 mod places;
 mod radar;
 mod refine;
+mod scale;
+mod steady;
 mod swapped;
 mod unseen;
 mod vertical;
 mod wheels;
 
 use crate::bounds;
-use crate::remedy::{OTHER_ORDER, OTHER_WAY, Remedy};
+use crate::remedy::{AS_TEXT, BACKWARDS, OTHER_ORDER, OTHER_WAY, Remedy};
 use crate::sample::Sample;
 use crate::verdict::{Question, SequenceCheck, State, Verdict};
 use case::Case;
-use ralf::sensors::{Sequence, Source};
+use ralf::sensors::Source;
 pub use refine::Refinement;
 
-/// Judges a sequence, and refines what was found: the corrections of each sensor, jointly from range rates and the
-/// LiDAR, with standard deviations. Nothing is applied.
-pub fn check_and_refine(source: &dyn Source) -> (SequenceCheck, Vec<Refinement>) {
-    let sample = Sample::in_rows(source);
-    let (checked, case) = judge(source.sequence(), &sample);
-    let refined = refine::refine(&case);
-    (checked, refined)
+/// Judges sequences of one vehicle, and refines what was found: the corrections of each sensor, jointly from range
+/// rates and the LiDAR of all of them, with standard deviations. Nothing is applied.
+pub fn check_and_refine(sources: &[&dyn Source]) -> (Vec<SequenceCheck>, Vec<Refinement>) {
+    let samples: Vec<Sample> = sources.iter().map(|source| Sample::in_rows(*source)).collect();
+    let judged = sources.iter().zip(&samples).map(|(source, sample)| judge(*source, sample));
+    let (checked, cases): (Vec<_>, Vec<_>) = judged.unzip();
+    (checked, refine::refine(&cases))
 }
 
 /// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the
 /// sequence; those that can't be read are left out, and this is said.
 pub fn check(source: &dyn Source) -> SequenceCheck {
     let sample = Sample::of(source);
-    judge(source.sequence(), &sample).0
+    judge(source, &sample).0
 }
 
-fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case<'a>) {
+fn judge<'a>(source: &'a dyn Source, sample: &'a Sample) -> (SequenceCheck, Case<'a>) {
+    let sequence = source.sequence();
     let mut verdicts = bounds::judge(sequence, sample);
     if let Some(first) = sample.unreadable.first() {
         let evidence = format!("{} scans can't be read, the first: {first}", sample.unreadable.len());
         verdicts.push(Verdict::new(&sequence.name, Question::Bounds, State::Fact, evidence));
     }
+    verdicts.extend(order::judge(source, sample, &unfit(&verdicts)));
     let mut case = Case::new(sequence, sample, unfit(&verdicts));
     verdicts.extend(motion::judge(&mut case));
     verdicts.extend(clocks::judge(&mut case));
@@ -71,7 +76,7 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
 }
 
 /// Words of remedies for what can't be asked anything else.
-const UNFIT: [&str; 5] = ["type", "columns", "cm", OTHER_ORDER, OTHER_WAY];
+const UNFIT: [&str; 7] = ["type", "columns", "cm", OTHER_ORDER, OTHER_WAY, AS_TEXT, BACKWARDS];
 
 /// Sensors whose numbers are no positions: nothing else can be asked of them.
 fn unfit(verdicts: &[Verdict]) -> Vec<String> {

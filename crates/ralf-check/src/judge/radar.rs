@@ -4,6 +4,8 @@ use super::alternatives::{best, clocks, exact, gain_of_one, shifts, yaws};
 use super::case::{Case, SCANS};
 use super::doppler::{COMPENSATED, RATIO, in_words, is_aligned, is_explained};
 use super::motion::correct_range_rates;
+use super::scale;
+use super::steady;
 use super::swapped;
 use super::unseen;
 use crate::change::SensorChange;
@@ -32,6 +34,7 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     for radar in radars {
         if !swapped.iter().any(|name| name == case.name(radar)) {
             verdicts.push(by_range_rates(case, radar));
+            verdicts.extend(scale::judge(case, radar).or_else(|| steady::of_radar(case, radar)));
             if case.radars().any(|fit| fit == radar) {
                 verdicts.push(by_lidar(case, radar));
             }

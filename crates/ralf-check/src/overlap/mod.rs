@@ -8,7 +8,7 @@ mod tally;
 
 pub(crate) use motion::{changed_motion_overlap, motion_overlap, radar_motion_overlap};
 pub(crate) use neighbours::{LidarPair, RadarPair, Side};
-pub(crate) use radar_lidar::{Measure, Setup, obstacles_in_view, overlap};
+pub(crate) use radar_lidar::{Measure, Setup, TOGETHER_NS, obstacles_in_view, of_moment, overlap};
 pub(crate) use tally::Tally;
 
 use ralf::space::Point;

@@ -2,6 +2,7 @@
 
 use super::{Tally, is_in_view};
 use crate::change::SensorChange;
+use crate::plan_field::FAR;
 use crate::sample::{LidarLook, RadarLook, nearest};
 use ralf::sensors::Rig;
 use ralf::space::EgoMotion;
@@ -14,12 +15,15 @@ const FARTHEST: f64 = 40.0;
 /// Nearer ones are the vehicle itself, m.
 const NEAREST: f64 = 1.0;
 /// A radar's scan belongs to a LiDAR's within this, ns.
-const TOGETHER_NS: u64 = 80_000_000;
+pub(crate) const TOGETHER_NS: u64 = 80_000_000;
 /// Things lower than this show both their ends, so that too high and too low count alike, m. Of walls a LiDAR sees no
 /// top.
 const LOW_THINGS: f64 = 2.2;
 /// A detection is as high as what it lies on within this, m.
 const HEIGHT: f64 = 0.3;
+
+/// Clutter of the road is told by its height within this range, m.
+const ROAD_WITHIN: f64 = 20.0;
 
 /// What is compared with what.
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +42,8 @@ pub(crate) enum Measure {
     Beside,
     /// Of detections beside low things: 1 between the road and their tops.
     AsHigh,
+    /// Of nearby detections far from all obstacles: 1 on the road.
+    OnRoad,
     /// `1 - (d / 1 m)^2`: smooth, to make a change exact.
     Smooth,
 }
@@ -55,11 +61,22 @@ pub(crate) fn overlap(
     for lidar in setup.lidars {
         let Some(look) = nearest(&times, lidar.t_ns).map(|i| &looks[i]) else { continue };
         if look.t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS {
-            let way = setup.lidar_from_radar(radar, lidar, look.t_ns, change);
-            tally.moments.push(count(lidar, look, &way, change, measure));
+            tally.moments.push(of_moment(setup, radar, (*lidar, look), change, measure));
         }
     }
     tally
+}
+
+/// The same of one scan of each.
+pub(crate) fn of_moment(
+    setup: &Setup,
+    radar: usize,
+    (lidar, look): (&LidarLook, &RadarLook),
+    change: &SensorChange,
+    measure: Measure,
+) -> [f64; 2] {
+    let way = setup.lidar_from_radar(radar, lidar, look.t_ns, change);
+    count(lidar, look, &way, change, measure)
 }
 
 impl Setup<'_> {
@@ -126,6 +143,7 @@ fn count(
         let Some(distance) = lidar.field.distance(p.x, p.y) else { continue };
         let counted = match measure {
             Measure::Beside => Some(f64::from(distance <= BESIDE)),
+            Measure::OnRoad => is_on_road(lidar, &p, range).filter(|_| distance >= FAR).map(f64::from),
             Measure::AsHigh => is_as_high(lidar, &p).filter(|_| distance <= BESIDE).map(f64::from),
             Measure::Smooth => {
                 lidar.field.smooth_distance(p.x, p.y).map(|distance| 1.0 - distance * distance)
@@ -143,4 +161,10 @@ fn count(
 fn is_as_high(lidar: &LidarLook, p: &Point) -> Option<bool> {
     let top = lidar.field.top(p.x, p.y).filter(|top| *top < LOW_THINGS)?;
     Some((-HEIGHT..=top + HEIGHT).contains(&p.z))
+}
+
+/// Whether a place far from obstacles lies on the road; `None` far away, where a small angle is much of a height.
+fn is_on_road(lidar: &LidarLook, p: &Point, range: f64) -> Option<bool> {
+    let height = lidar.ground.as_ref().map_or(p.z, |ground| ground.height(p));
+    (range < ROAD_WITHIN).then_some(height.abs() < HEIGHT)
 }

@@ -236,7 +236,7 @@ fn corrections_come_near_known_errors() {
     planted.sequence.rig.cameras.clear();
     planted.sequence.times.cameras.clear();
     table::plant(&mut planted, &known);
-    let (_, refined) = check_and_refine(&planted);
+    let (_, refined) = check_and_refine(&[&planted]);
     for (radar, change) in known.iter().enumerate() {
         let name = &planted.sequence.rig.radars[radar].name;
         let found = refined.iter().find(|refinement| refinement.name == *name).unwrap();

@@ -47,6 +47,10 @@ type RadarEdit = Box<dyn Fn(usize, usize, &mut Vec<Vec<f32>>) + Send + Sync>;
 /// Changes the points of a LiDAR's scan.
 type LidarEdit = Box<dyn Fn(&mut LidarScan) + Send + Sync>;
 
+/// Which scan is read in place of one: of a radar, of the LiDAR.
+type RadarFiles = Box<dyn Fn(usize, usize) -> usize + Send + Sync>;
+type LidarFiles = Box<dyn Fn(usize) -> usize + Send + Sync>;
+
 /// Changes the depth images of an image.
 type DepthEdit = Box<dyn Fn(&mut [DepthImage]) + Send + Sync>;
 
@@ -57,16 +61,22 @@ pub struct Planted {
     radar: Option<RadarEdit>,
     lidar: Option<LidarEdit>,
     depth: Option<DepthEdit>,
-    /// The radar and the LiDAR whose first scan comes again and again.
-    pub stuck_radar: Option<usize>,
-    pub stuck_lidar: bool,
+    radar_files: RadarFiles,
+    lidar_files: LidarFiles,
 }
 
 impl Planted {
     pub fn new(base: &Arc<Recording>) -> Self {
         let sequence = base.inner.sequence().clone();
-        let (base, stuck_radar, stuck_lidar) = (base.clone(), None, false);
-        Self { base, sequence, radar: None, lidar: None, depth: None, stuck_radar, stuck_lidar }
+        Self {
+            base: base.clone(),
+            sequence,
+            radar: None,
+            lidar: None,
+            depth: None,
+            radar_files: Box::new(|_, scan| scan),
+            lidar_files: Box::new(|scan| scan),
+        }
     }
 
     /// Changes scans of radars: their number, the scan's, its columns.
@@ -76,6 +86,15 @@ impl Planted {
 
     pub fn edit_lidar(&mut self, edit: impl Fn(&mut LidarScan) + Send + Sync + 'static) {
         self.lidar = Some(Box::new(edit));
+    }
+
+    /// Reads other scans of radars: their number and the scan's.
+    pub fn read_of_radars(&mut self, files: impl Fn(usize, usize) -> usize + Send + Sync + 'static) {
+        self.radar_files = Box::new(files);
+    }
+
+    pub fn read_of_lidar(&mut self, files: impl Fn(usize) -> usize + Send + Sync + 'static) {
+        self.lidar_files = Box::new(files);
     }
 
     /// Has depth, which a recording lacks otherwise, and changes it.
@@ -119,7 +138,7 @@ impl Source for Planted {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let read = if self.stuck_radar == Some(radar) { 0 } else { scan };
+        let read = (self.radar_files)(radar, scan);
         let base =
             self.base.radars[radar][read].get_or_init(|| self.base.inner.radar_scan(radar, read).unwrap());
         let mut columns = base.columns.clone();
@@ -131,7 +150,7 @@ impl Source for Planted {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let read = if self.stuck_lidar { 0 } else { scan };
+        let read = (self.lidar_files)(scan);
         let base = self.base.lidars[read].get_or_init(|| self.base.inner.lidar_scan(lidar, read).unwrap());
         let mut found = LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], ..base.clone() };
         if let Some(edit) = &self.lidar {

@@ -71,7 +71,7 @@ fn refine(title: &str, base: &Arc<Recording>, seed: u64) -> Outcome {
     let known = errors(seed);
     let mut faulty = planted(base);
     plant(&mut faulty, &known);
-    let (_, refined) = check_and_refine(&faulty);
+    let (_, refined) = check_and_refine(&[&faulty]);
     let mut fixed = planted(base);
     plant(&mut fixed, &known);
     let mut sigmas = Vec::new();
@@ -124,9 +124,35 @@ fn nothing_is_proposed_of_recordings_that_are_right() {
     // Short ones, in which chance alone had moved a radar by half a decimetre.
     let sequence = &presets::find("tiny").unwrap().sequences[0];
     for seed in [3, 4, 5] {
-        let (_, refined) = check_and_refine(&sequence.simulate(seed, 60).unwrap().without_cameras());
+        let right = sequence.simulate(seed, 60).unwrap().without_cameras();
+        let (_, refined) = check_and_refine(&[&right]);
         let proposed = refined.iter().filter(|refined| refined.proposed != SensorChange::default());
         assert_eq!(proposed.count(), 0, "seed {seed}: {refined:?}");
+    }
+}
+
+/// Two drives of one vehicle, whose errors are the same: corrections rest on both, and are better known.
+#[test]
+fn drives_of_one_vehicle_tell_together() {
+    let known = errors(7);
+    let drives = [(STRAIGHT, 8), (TURNING, 9)].map(|(drive, seed)| {
+        let mut faulty = planted(&Recording::of(drive, 120, seed));
+        plant(&mut faulty, &known);
+        faulty
+    });
+    let [first, second] = &drives;
+    let (checks, both) = check_and_refine(&[first, second]);
+    assert_eq!(checks.len(), 2);
+    let (_, alone) = check_and_refine(&[first]);
+    let names = first.sequence.rig.radars.iter().map(|radar| &radar.name);
+    for (name, error) in names.zip(&known) {
+        let [both, alone] =
+            [&both, &alone].map(|refined| refined.iter().find(|own| own.name == *name).unwrap());
+        let off = left(error, &both.change);
+        println!("{name}: off by {off:.3?} +- {:.3?}, alone {:.3?}", both.deviations, alone.deviations);
+        assert!((0..4).all(|i| off[i].abs() < 3.0 * both.deviations[i]), "{off:?} {:?}", both.deviations);
+        let clock = |refined: &Refinement| refined.deviations[3];
+        assert!(clock(both) < clock(alone), "{both:?} {alone:?}");
     }
 }
 

@@ -9,8 +9,13 @@ use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
+use ralf::sensors::Source;
 use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
+use ralf_data::SequenceReader;
 use std::path::{Path, PathBuf};
+
+/// Corrections come from so many sequences of a recording at most: what was read of them is kept at once.
+const REFINED: usize = 8;
 
 /// Arguments of `ralf check`.
 #[derive(Debug, Args)]
@@ -57,22 +62,7 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
-    let mut checks: Vec<SequenceCheck> = Vec::new();
-    let mut refined: Vec<Refinement> = Vec::new();
-    for reader in &recording.sequences {
-        if arguments.write.is_none() {
-            checks.push(check(reader.as_ref()));
-            continue;
-        }
-        let (check, own) = check_and_refine(reader.as_ref());
-        checks.push(check);
-        for refinement in own {
-            // One rig, one set of corrections: the first sequence that tells of a sensor is taken.
-            if refined.iter().all(|known| known.name != refinement.name) {
-                refined.push(refinement);
-            }
-        }
-    }
+    let (checks, refined) = judged(&recording.sequences, arguments.write.is_some());
     // First what was found: a disk that has become full takes no more than the files.
     let printed = print(&if arguments.json {
         serde_json::to_string_pretty(&checks)?
@@ -80,7 +70,7 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
         checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>()
     });
     if let Some(file) = &arguments.write {
-        ralf_data::write_editable(file, &fixes::text(&checks, &refined))?;
+        ralf_data::write_editable(file, &fixes::text(&checks, &refined, &settings)?)?;
         say(&format!("wrote {}", file.display()));
     }
     if let Some(file) = &arguments.output {
@@ -90,6 +80,23 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
     printed?;
     let doubted = checks.iter().any(|check| check.doubts().next().is_some());
     Ok(Outcome::done_if(!doubted || !arguments.strict))
+}
+
+/// Judges all sequences; where corrections are wanted, these too, from some of them.
+fn judged(
+    sequences: &[Box<dyn SequenceReader>],
+    with_corrections: bool,
+) -> (Vec<SequenceCheck>, Vec<Refinement>) {
+    let refining = if with_corrections { sequences.len().min(REFINED) } else { 0 };
+    let is_refined = |i: usize| (0..refining).any(|part| part * sequences.len() / refining == i);
+    let some = (0..sequences.len()).filter(|i| is_refined(*i)).map(|i| sequences[i].as_ref() as &dyn Source);
+    let (checked, refined) = check_and_refine(&some.collect::<Vec<_>>());
+    let mut checked = checked.into_iter();
+    let one = |i: usize| {
+        let known = if is_refined(i) { checked.next() } else { None };
+        known.unwrap_or_else(|| check(sequences[i].as_ref()))
+    };
+    ((0..sequences.len()).map(one).collect(), refined)
 }
 
 impl CheckArgs {

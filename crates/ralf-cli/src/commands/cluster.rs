@@ -190,14 +190,15 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
     let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
     let (mut recordings, mut detections, mut outcome) = (0, 0, Outcome::Done);
     for folder in &folders {
-        match many::assemble(folder, jobs, &Stages::default()) {
+        let stages = Stages::default();
+        stages.name_recording(&folder.display().to_string());
+        match many::assemble(folder, jobs, &stages) {
             Ok(done) => {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
-                let what =
-                    done.earlier.told(Earlier::NOW).into_iter().chain(all_labelled_without(&done.record));
-                what.for_each(|line| say(&format!("{}: {line}", folder.display())));
+                all_labelled_without(&done.record)
+                    .for_each(|line| say(&format!("{}: {line}", folder.display())));
                 for line in not_labelled(&done.record) {
                     say(&format!("not labelled: {}: {line}", folder.display()));
                     outcome = Outcome::Partial;

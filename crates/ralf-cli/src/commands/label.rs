@@ -15,7 +15,7 @@ use clap::Args;
 use ralf::config::Config;
 use ralf_data::Recording;
 use ralf_data::run::{
-    CheckRecord, Earlier, LabelRun, Outcome as RunOutcome, SequenceRecord, check_all, check_output_folder,
+    CheckRecord, LabelRun, Outcome as RunOutcome, SequenceRecord, check_all, check_output_folder,
 };
 use ralf_data::views::{lacking, with_stored};
 use std::num::NonZeroUsize;
@@ -115,7 +115,6 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         true => run.execute(&stages)?,
         false => run.execute_and_check(&stages, &|check| doubts(check).for_each(|line| stages.say(&line)))?,
     };
-    done.earlier.told(Earlier::NOW).iter().for_each(|line| say(line));
     if done.labelled.is_empty() {
         say("nothing to do: labelled before with the same program, settings and inputs");
     }

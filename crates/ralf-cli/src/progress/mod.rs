@@ -7,7 +7,7 @@ use crate::spent::{Spent, Work};
 use crate::text::{grouped, tamed};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lines::{Reached, is_due};
-use ralf_data::run::{Observer, Part, Stage};
+use ralf_data::run::{Earlier, Observer, Part, Stage};
 use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -160,6 +160,11 @@ impl Stages {
 }
 
 impl Observer for Stages {
+    fn found(&self, earlier: &Earlier) {
+        let within = self.within.lock().map(|within| within.clone()).unwrap_or_default();
+        earlier.told(Earlier::NOW).iter().for_each(|line| self.say(&format!("{within}{line}")));
+    }
+
     fn begin(&self, stage: Stage, steps: u64) {
         self.begin_work((stage == Stage::Inputs).then_some(Work::Hashing));
         self.detections.store(0, Ordering::Relaxed);

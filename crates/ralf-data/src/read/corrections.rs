@@ -124,6 +124,17 @@ impl Default for MotionSettings {
 }
 
 impl MotionSettings {
+    /// These settings, with what a later correction of the motion that they made says.
+    #[must_use]
+    pub fn then(&self, later: &Self) -> Self {
+        Self {
+            speed_factor: self.speed_factor * later.speed_factor,
+            yaw_rate_factor: self.yaw_rate_factor * later.yaw_rate_factor,
+            time_offset_ms: self.time_offset_ms + later.time_offset_ms,
+            ..self.clone()
+        }
+    }
+
     /// All numbers, by their keys.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
         [
@@ -150,6 +161,31 @@ impl SensorCorrection {
             ("position_factor", self.position_factor),
         ];
         others.into_iter().chain(translation)
+    }
+
+    /// This correction, and a later one of what it made of the recording, as one. Turns are Euler angles of both in a
+    /// row; what the later one says of ticks wins.
+    #[must_use]
+    pub fn then(&self, later: &Self) -> Self {
+        let turn = |c: &Self| {
+            let [roll, pitch, yaw] = [c.add_roll_deg, c.add_pitch_deg, c.add_yaw_deg].map(f64::to_radians);
+            UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+        };
+        let (roll, pitch, yaw) = (turn(self) * turn(later)).euler_angles();
+        let is_held = self.period_ms > 0.0 && later.period_ms == 0.0;
+        Self {
+            add_yaw_deg: yaw.to_degrees(),
+            add_pitch_deg: pitch.to_degrees(),
+            add_roll_deg: roll.to_degrees(),
+            add_translation: std::array::from_fn(|i| self.add_translation[i] + later.add_translation[i]),
+            time_offset_ms: self.time_offset_ms + later.time_offset_ms,
+            period_ms: if is_held { self.period_ms } else { later.period_ms },
+            // Times that go back to a tick are moved with it.
+            tick_ms: if is_held { self.tick_ms + later.time_offset_ms } else { later.tick_ms },
+            doppler_factor: self.doppler_factor * later.doppler_factor,
+            position_factor: self.position_factor * later.position_factor,
+            mirror_y: self.mirror_y != later.mirror_y,
+        }
     }
 
     /// Corrects the mounting and the times of the sensor of this name. The error says which names there are, or what is
@@ -214,6 +250,34 @@ impl SensorCorrection {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_corrections_in_a_row_are_one() {
+        let [first, later] =
+            [[4.0, -2.0, 1.5], [90.0, 0.5, -3.0]].map(|[yaw, pitch, roll]| SensorCorrection {
+                add_yaw_deg: yaw,
+                add_pitch_deg: pitch,
+                add_roll_deg: roll,
+                add_translation: [yaw * 0.1, roll, 0.2],
+                time_offset_ms: yaw * 2.0,
+                doppler_factor: -0.5,
+                mirror_y: roll > 0.0,
+                ..SensorCorrection::default()
+            });
+        let recorded = Transform::from_parts(
+            Translation3::new(3.0, 0.5, 0.4),
+            UnitQuaternion::from_euler_angles(0.1, -0.2, 0.7),
+        );
+        let (both, in_turn) = (first.then(&later).mount(&recorded), later.mount(&first.mount(&recorded)));
+        assert!((both.to_homogeneous() - in_turn.to_homogeneous()).abs().max() < 1e-12);
+        let both = first.then(&later);
+        assert_eq!((both.time_offset_ms, both.doppler_factor, both.mirror_y), (188.0, 0.25, true));
+        let held = SensorCorrection { period_ms: 55.0, tick_ms: 7.0, ..first };
+        let later = SensorCorrection { time_offset_ms: 20.0, ..SensorCorrection::default() };
+        for t_ns in [0, 217_000_000, 300_000_000] {
+            assert_eq!(held.then(&later).time(t_ns), later.time(held.time(t_ns)));
+        }
+    }
 
     #[test]
     fn a_time_goes_back_to_the_tick_before_it() {

@@ -161,13 +161,14 @@ impl LabelRun<'_> {
         let tasks = self.tasks(&labeler)?;
         let (_lock, folder, asked) = self.enter(observer)?;
         let names: Vec<String> = asked.iter().map(|asked| asked.name.clone()).collect();
+        let earlier = folder.earlier().clone().and_labelled(&names);
+        observer.found(&earlier);
         let pending: Vec<_> =
             tasks.iter().zip(asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
         let (finished, checks) = self.label_sequences(pending, &folder, observer, told)?;
         let checks = if told.is_some() { &checks } else { self.checks };
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
-        let earlier = folder.earlier().clone().and_labelled(&names);
         let mut record = folder.finish(finished, timings, checks)?;
         record.retain(|sequence| names.contains(&sequence.name));
         Ok(Outcome { record, labelled, earlier, warnings: self.warnings() })

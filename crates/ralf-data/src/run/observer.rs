@@ -1,5 +1,6 @@
 //! Who is told how a run gets on.
 
+use super::earlier::Earlier;
 use std::time::Duration;
 
 /// Part of the work, for a progress display.
@@ -36,6 +37,9 @@ pub enum Part {
 
 /// Is told how a run gets on. Called from several threads.
 pub trait Observer: Sync {
+    /// Results lay in the output folder, of which this has become: told before anything is labelled, for whoever ends
+    /// the run then has lost them all the same.
+    fn found(&self, _earlier: &Earlier) {}
     /// A stage of so many steps begins.
     fn begin(&self, _stage: Stage, _steps: u64) {}
     /// Some more steps of the stage are done, with so many detections in them.

@@ -1,12 +1,13 @@
 //! Recordings that several machines label in parts: nothing tells their results from one machine's.
 
 use ralf_data::many::{Job, Task, assemble, folders, label_one, plan, planned};
-use ralf_data::run::{Observer, Unwatched};
+use ralf_data::run::{Earlier, Observer, Unwatched};
 use ralf_data::{DataError, Settings, write_sequence};
 use std::collections::BTreeMap;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 const ONE: NonZeroUsize = NonZeroUsize::MIN;
@@ -51,6 +52,33 @@ fn a_model_is_refused_where_none_is_asked() {
         "nosuch.txt: model: expected the method that asks a model (method = \"learned\"), found the paper's";
     assert_eq!(error, told);
     assert!(!out.exists());
+}
+
+/// Wants the work to end once it knows what became of earlier results.
+#[derive(Default)]
+struct Shocked(Mutex<Vec<String>>);
+
+impl Observer for Shocked {
+    fn found(&self, earlier: &Earlier) {
+        self.0.lock().unwrap().extend(earlier.told(Earlier::NOW));
+    }
+    fn stopped(&self) -> bool {
+        !self.0.lock().unwrap().is_empty()
+    }
+}
+
+#[test]
+fn labels_that_are_gone_are_told_of_before_anything_is_labelled() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dataset, out) = (recording(folder.path(), 1), folder.path().join("out"));
+    let mut job = job(&dataset, &out);
+    job.label(ONE, &Unwatched).unwrap();
+    job.settings.method.fusion.threshold = 0.9;
+    let shocked = Shocked::default();
+    let error = job.label(ONE, &shocked).unwrap_err();
+    assert!(matches!(error, DataError::Stopped), "{error}");
+    let told = shocked.0.into_inner().unwrap();
+    assert!(told.len() == 1 && told[0].contains("for they were made by another version"), "{told:?}");
 }
 
 /// All files below a folder; of `run.json` all but the timings, and not the plan.

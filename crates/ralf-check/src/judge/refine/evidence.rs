@@ -25,26 +25,30 @@ pub(super) const STRETCHES: usize = 8;
 /// Kinds of evidence: range rates, and the LiDAR by bands of range.
 pub(super) const KINDS: usize = 1 + BANDS;
 
-/// Something by stretch of time and kind of evidence.
-pub(super) type Parts<T> = [[T; KINDS]; STRETCHES];
+/// Something by kind of evidence, of each stretch of time: of all stretches of the first drive, then of the second.
+pub(super) type Parts<T> = Vec<[T; KINDS]>;
 
-/// Range rates of a radar, and its detections beside the LiDAR's points.
+/// Range rates of a radar, and its detections beside the LiDAR's points, in all drives of a vehicle.
 pub(super) struct Evidence<'a> {
+    drives: Vec<Drive<'a>>,
+    /// What the quantities are added to: a mirror, a roll.
+    base: SensorChange,
+}
+
+/// The same of one drive.
+struct Drive<'a> {
     case: &'a Case<'a>,
     radar: usize,
     beside: Beside<'a>,
-    /// What the quantities are added to: a mirror, a roll.
-    base: SensorChange,
     /// Of the speed by range rates to the recorded one: wheels are known to half a percent, which is no matter of
     /// mounting or time.
     ratio: f64,
 }
 
 impl<'a> Evidence<'a> {
-    pub(super) fn of(case: &'a Case<'a>, radar: usize) -> Self {
-        let figures = case.doppler(radar, &case.motion, &case.mount(radar));
-        let ratio = figures.map_or(1.0, |figures| figures.ratio.value);
-        Self { case, radar, beside: Beside::of(case, radar), base: case.radar_changes[radar], ratio }
+    /// Of a radar's number in each case. What is found starts from a change.
+    pub(super) fn of(cases: &[(&'a Case<'a>, usize)], base: SensorChange) -> Self {
+        Self { drives: cases.iter().map(|(case, radar)| Drive::of(case, *radar)).collect(), base }
     }
 
     /// What was found before.
@@ -65,6 +69,50 @@ impl<'a> Evidence<'a> {
 
     /// The parts of the evidence in which anything was measured.
     pub(super) fn observed(&self) -> Parts<bool> {
+        self.drives.iter().flat_map(Drive::observed).collect()
+    }
+
+    /// The logarithm of the likelihood of each part of the evidence, but for a constant.
+    pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
+        let change = self.change(values);
+        self.drives.iter().flat_map(|drive| drive.parts(&change, &drive.on_fronts(&change))).collect()
+    }
+
+    /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections
+    /// lie on fronts than a little farther ahead and back. Along guard rails and walls as many do, and more the nearer
+    /// they come to the LiDAR, which sees more there.
+    pub(super) fn tells_along(&self, values: &Values) -> bool {
+        let on_fronts = |metres: f64| -> f64 {
+            let change = self.change(&(values + self::values(&SensorChange::shift(metres, 0.0))));
+            let moments = self.drives.iter().flat_map(|drive| drive.on_fronts(&change));
+            moments.flat_map(|moment| moment.bands).sum()
+        };
+        let there = on_fronts(0.0);
+        let aside = ASIDE.iter().map(|metres| on_fronts(*metres)).sum::<f64>() / ASIDE.len() as f64;
+        there - aside > CLEARLY * there.sqrt()
+    }
+
+    /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of
+    /// things from the next.
+    pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
+        let change = self.change(values);
+        let of_drive = |drive: &Drive| {
+            let moments = drive.on_fronts(&change);
+            let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
+            drive.parts(&change, &moments).iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over
+        };
+        self.drives.iter().map(of_drive).sum::<f64>() - values.norm_squared() / 2.0
+    }
+}
+
+impl<'a> Drive<'a> {
+    fn of(case: &'a Case<'a>, radar: usize) -> Self {
+        let figures = case.doppler(radar, &case.motion, &case.mount(radar));
+        let ratio = figures.map_or(1.0, |figures| figures.ratio.value);
+        Self { case, radar, beside: Beside::of(case, radar), ratio }
+    }
+
+    fn observed(&self) -> [[bool; KINDS]; STRETCHES] {
         let mut found = [[false; KINDS]; STRETCHES];
         let moments = self.beside.observed();
         let count = moments.len();
@@ -77,40 +125,12 @@ impl<'a> Evidence<'a> {
         found
     }
 
-    /// The logarithm of the likelihood of each part of the evidence, but for a constant.
-    pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
-        self.parts(values, &self.on_fronts(values))
+    fn on_fronts(&self, change: &SensorChange) -> Vec<OnFronts> {
+        self.beside.on_fronts(&self.case.setup(), self.radar, change)
     }
 
-    /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections
-    /// lie on fronts than a little farther ahead and back. Along guard rails and walls as many do, and more the nearer
-    /// they come to the LiDAR, which sees more there.
-    pub(super) fn tells_along(&self, values: &Values) -> bool {
-        let on_fronts = |metres: f64| -> f64 {
-            let moved = values + self::values(&SensorChange::shift(metres, 0.0));
-            self.on_fronts(&moved).iter().flat_map(|moment| moment.bands).sum()
-        };
-        let there = on_fronts(0.0);
-        let aside = ASIDE.iter().map(|metres| on_fronts(*metres)).sum::<f64>() / ASIDE.len() as f64;
-        there - aside > CLEARLY * there.sqrt()
-    }
-
-    /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of
-    /// things from the next.
-    pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
-        let moments = self.on_fronts(values);
-        let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
-        let parts = self.parts(values, &moments);
-        parts.iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over - values.norm_squared() / 2.0
-    }
-
-    fn on_fronts(&self, values: &Values) -> Vec<OnFronts> {
-        self.beside.on_fronts(&self.case.setup(), self.radar, &self.change(values))
-    }
-
-    fn parts(&self, values: &Values, moments: &[OnFronts]) -> Parts<f64> {
+    fn parts(&self, change: &SensorChange, moments: &[OnFronts]) -> [[f64; KINDS]; STRETCHES] {
         let Self { case, radar, .. } = *self;
-        let change = self.change(values);
         let mut found = [[0.0; KINDS]; STRETCHES];
         for (i, moment) in moments.iter().enumerate() {
             for (sum, beside) in found[stretch(i, moments.len())][1..].iter_mut().zip(moment.bands) {
@@ -120,7 +140,7 @@ impl<'a> Evidence<'a> {
         let mount = change.mount(&case.sequence.rig.radars[radar].vehicle_from_radar);
         let scans = case.fits[radar].len();
         for i in 0..scans {
-            found[stretch(i, scans)][0] -= self.misfit(i, &change, &mount);
+            found[stretch(i, scans)][0] -= self.misfit(i, change, &mount);
         }
         found
     }

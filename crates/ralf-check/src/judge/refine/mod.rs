@@ -1,5 +1,5 @@
-//! Corrections made exact: yaw, place in plan and clock of each radar, jointly from range rates and the LiDAR, with
-//! standard deviations.
+//! Corrections made exact: yaw, place in plan and clock of each radar, jointly from range rates and the LiDAR, and from
+//! all drives of a vehicle, with standard deviations.
 //!
 //! What is maximised is a log-likelihood: detections lie beside LiDAR points, velocities are those of the vehicle,
 //! and small corrections are likelier than large ones.
@@ -15,7 +15,8 @@ use crate::change::SensorChange;
 use crate::doppler::clock;
 use crate::overlap::Measure;
 use evidence::Evidence;
-use quantity::{QUANTITIES, Quantity, Values};
+use quantity::{QUANTITIES, Quantity, Values, values};
+use ralf::space::Transform;
 use search::{Deviations, Open, deviations, likeliest};
 use serde::Serialize;
 
@@ -23,6 +24,11 @@ use serde::Serialize;
 const SIGMAS: f64 = 3.0;
 /// And so many of those that are told: what one recording in twenty shows that is right is no reason to change it.
 const TOLD_SIGMAS: f64 = 2.0;
+/// Changes of several drives that differ by less than this are one, in what one expects to be off.
+const ALIKE: f64 = 0.4;
+/// A sensor that is written down so near another drive's is mounted as there, m and rad.
+const SAME_PLACE: f64 = 0.005;
+const SAME_DIRECTION: f64 = 0.002;
 
 /// The correction of one sensor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,42 +46,94 @@ pub struct Refinement {
     pub proposed: SensorChange,
 }
 
-/// The corrections of all radars that can be refined; a LiDAR's and an unrefined one's are those that were found.
-pub(super) fn refine(case: &Case) -> Vec<Refinement> {
-    let rig = &case.sequence.rig;
-    let found =
-        rig.lidars.iter().zip(&case.lidar_changes).filter(|(_, change)| **change != SensorChange::default());
-    let found = found.map(|(lidar, change)| Refinement {
-        name: lidar.name.clone(),
-        change: *change,
-        deviations: [f64::NAN; 4],
-        proposed: *change,
+/// The corrections of all radars that can be refined; a LiDAR's and an unrefined one's are those that were found, in
+/// more drives than not.
+pub(super) fn refine(cases: &[Case]) -> Vec<Refinement> {
+    let lidars = names(cases, |case| case.sequence.rig.lidars.iter().map(|lidar| &lidar.name).collect());
+    let lidars = lidars.into_iter().filter_map(|name| {
+        let change_of = |case: &Case| {
+            let lidar = case.sequence.rig.lidars.iter().position(|lidar| lidar.name == *name)?;
+            Some(case.lidar_changes[lidar])
+        };
+        let change = common(&cases.iter().filter_map(change_of).collect::<Vec<_>>());
+        (change != SensorChange::default()).then(|| as_found(name, change))
     });
-    let radars = case.radars().map(|radar| of_radar(case, radar).unwrap_or_else(|| as_found(case, radar)));
-    found.chain(radars).collect()
+    let radars =
+        names(cases, |case| case.radars().map(|radar| &case.sequence.rig.radars[radar].name).collect());
+    lidars.chain(radars.into_iter().map(|name| of_radar(cases, name))).collect()
 }
 
-/// A radar's change as it was found.
-fn as_found(case: &Case, radar: usize) -> Refinement {
-    let change = case.radar_changes[radar];
-    Refinement { name: case.name(radar).to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
-}
-
-/// `None` where the LiDARs don't see what the radar sees: whatever would lay one onto the other is chance.
-fn of_radar(case: &Case, radar: usize) -> Option<Refinement> {
-    let beside = case.overlap(radar, &SensorChange::default(), Measure::Beside);
-    if beside.is_enough() && !beside.is_above_chance(&case.elsewhere(radar)) {
-        return None;
+/// Names of sensors, each once, in the order of the rigs.
+fn names<'a>(cases: &'a [Case], of: impl Fn(&'a Case<'a>) -> Vec<&'a String>) -> Vec<&'a String> {
+    let mut names = Vec::new();
+    for name in cases.iter().flat_map(of) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
     }
-    let evidence = Evidence::of(case, radar);
-    let (open, values) = found(&evidence, judgeable(case, radar));
+    names
+}
+
+/// What was found in most drives; nothing where most found nothing, or something else each.
+fn common(changes: &[SensorChange]) -> SensorChange {
+    let is_like = |a: &SensorChange, b: &SensorChange| {
+        (values(a) - values(b)).amax() <= ALIKE && is_alike_besides(a, b)
+    };
+    let count = |change: &SensorChange| changes.iter().filter(|other| is_like(change, other)).count();
+    let most = changes.iter().copied().find(|change| 2 * count(change) > changes.len());
+    most.unwrap_or_default()
+}
+
+/// Whether two changes are the same but for what is refined.
+fn is_alike_besides(a: &SensorChange, b: &SensorChange) -> bool {
+    let rest =
+        |change: &SensorChange| (change.mirrored, change.turn_deg[0], change.turn_deg[1], change.shift_m[2]);
+    rest(a) == rest(b)
+}
+
+/// A sensor's change as it was found.
+fn as_found(name: &str, change: SensorChange) -> Refinement {
+    Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
+}
+
+/// A radar's, from the drives in which it is mounted as in the first.
+fn of_radar(cases: &[Case], name: &str) -> Refinement {
+    let radar_of = |case: &Case| case.radars().find(|radar| case.name(*radar) == name);
+    let mut all: Vec<(&Case, usize)> =
+        cases.iter().filter_map(|case| Some((case, radar_of(case)?))).collect();
+    let mount = |(case, radar): &(&Case, usize)| case.sequence.rig.radars[*radar].vehicle_from_radar;
+    let first = mount(&all[0]);
+    all.retain(|own| is_mounted_alike(&mount(own), &first));
+    let changes: Vec<SensorChange> = all.iter().map(|(case, radar)| case.radar_changes[*radar]).collect();
+    let base = common(&changes);
+    let telling: Vec<(&Case, usize)> = all
+        .into_iter()
+        .filter(|(case, radar)| is_alike_besides(&case.radar_changes[*radar], &base) && tells(case, *radar))
+        .collect();
+    if telling.is_empty() {
+        return as_found(name, base);
+    }
+    let evidence = Evidence::of(&telling, base);
+    let (open, values) = found(&evidence, judgeable(&telling));
     let deviations = deviations(&evidence, &values, open);
-    Some(Refinement {
-        name: case.name(radar).to_owned(),
+    Refinement {
+        name: name.to_owned(),
         change: evidence.change(&values),
         deviations: std::array::from_fn(|i| told(&deviations, i)),
         proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
-    })
+    }
+}
+
+/// Drives with one calibration: what is written down is rounded.
+fn is_mounted_alike(a: &Transform, b: &Transform) -> bool {
+    let apart = (a.translation.vector - b.translation.vector).norm();
+    apart < SAME_PLACE && a.rotation.angle_to(&b.rotation) < SAME_DIRECTION
+}
+
+/// `false` where the LiDARs don't see what the radar sees: whatever would lay one onto the other is chance.
+fn tells(case: &Case, radar: usize) -> bool {
+    let beside = case.overlap(radar, &SensorChange::default(), Measure::Beside);
+    !beside.is_enough() || beside.is_above_chance(&case.elsewhere(radar))
 }
 
 /// The likeliest values of what is open. A LiDAR that doesn't tell how far along the way things are would pull at that
@@ -142,12 +200,35 @@ fn without(evidence: &Evidence, values: &Values, mut open: Open, quantity: usize
     likeliest(evidence, &start, open)
 }
 
-/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the
-/// LiDAR or by speeds that change.
-fn judgeable(case: &Case, radar: usize) -> Open {
-    let by_lidar = case.overlap(radar, &SensorChange::default(), Measure::Beside).is_enough();
-    let mount = case.mount(radar);
-    let figures = case.doppler(radar, &case.motion, &mount);
-    let timed = figures.and_then(|figures| clock(&case.fits[radar], &case.motion, &mount, &figures));
-    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || timed.is_some_and(|clock| clock.is_sharp)]
+/// Which quantities can be judged, in any drive: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock
+/// by the LiDAR or by speeds that change.
+fn judgeable(drives: &[(&Case, usize)]) -> Open {
+    let of_drive = |(case, radar): &(&Case, usize)| {
+        let by_lidar = case.overlap(*radar, &SensorChange::default(), Measure::Beside).is_enough();
+        let mount = case.mount(*radar);
+        let figures = case.doppler(*radar, &case.motion, &mount);
+        let timed = figures.and_then(|figures| clock(&case.fits[*radar], &case.motion, &mount, &figures));
+        let by_speeds = timed.is_some_and(|clock| clock.is_sharp);
+        [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || by_speeds]
+    };
+    let all: Vec<Open> = drives.iter().map(of_drive).collect();
+    std::array::from_fn(|i| all.iter().any(|open| open[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_most_drives_ask_for_is_common_and_what_one_asks_for_is_not() {
+        let nothing = SensorChange::default();
+        let [near, nearer] = [SensorChange::yaw(-4.0), SensorChange::yaw(-4.6)];
+        assert_eq!(common(&[nearer]), nearer, "of a single drive all");
+        assert_eq!(common(&[near, nothing, nothing]), nothing);
+        assert_eq!(common(&[near, nothing]), nothing, "as many deny it");
+        assert_eq!(common(&[near, nearer, nothing]), near);
+        let other = SensorChange::yaw(170.0);
+        assert_eq!(common(&[near, other, nothing]), nothing, "each something else");
+        assert_eq!(common(&[near, SensorChange { mirrored: true, ..near }, nothing]), nothing);
+    }
 }

@@ -4,7 +4,7 @@
 //! the speed is the same. So after each quantity for itself the search follows the axes of the likelihood's own bend,
 //! and the standard deviations are those of all quantities together.
 
-use super::evidence::{Evidence, KINDS, Parts, STRETCHES};
+use super::evidence::{Evidence, KINDS, Parts};
 use super::quantity::{QUANTITIES, Values};
 use nalgebra::{Matrix4, SymmetricEigen};
 
@@ -141,14 +141,15 @@ pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> De
 /// nowhere because it says nothing, and not because it agrees.
 fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 2] {
     let of_stretch = |stretch: usize| (0..KINDS).map(move |kind| (stretch, kind));
-    let of_kind = |kind: usize| (0..STRETCHES).map(move |stretch| (stretch, kind));
+    let stretches = slopes.len();
+    let of_kind = |kind: usize| (0..stretches).map(move |stretch| (stretch, kind));
     let is_observed = |(stretch, kind): &(usize, usize)| observed[*stretch][*kind];
     let sum = |parts: Vec<(usize, usize)>| {
         let found = parts.into_iter().filter(is_observed).map(|(stretch, kind)| slopes[stretch][kind]);
         found.reduce(|sum, slope| sum + slope)
     };
     [
-        (0..STRETCHES).filter_map(|stretch| sum(of_stretch(stretch).collect())).collect(),
+        (0..stretches).filter_map(|stretch| sum(of_stretch(stretch).collect())).collect(),
         (0..KINDS).filter_map(|kind| sum(of_kind(kind).collect())).collect(),
     ]
 }
@@ -167,7 +168,7 @@ fn disagreement(slopes: &[Values]) -> Matrix4<f64> {
 
 /// How each part of the evidence would have the values changed.
 fn slopes(evidence: &Evidence, values: &Values, open: Open) -> Parts<Values> {
-    let mut slopes = [[Values::zeros(); KINDS]; STRETCHES];
+    let mut slopes = vec![[Values::zeros(); KINDS]; evidence.observed().len()];
     for i in (0..4).filter(|i| open[*i]) {
         let [behind, ahead] = [-1.0, 1.0].map(|side| evidence.likelihoods(&(values + reach(i) * side)));
         let ends = behind.iter().flatten().zip(ahead.iter().flatten());
@@ -180,12 +181,13 @@ fn slopes(evidence: &Evidence, values: &Values, open: Open) -> Parts<Values> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::evidence::STRETCHES;
     use super::*;
 
     /// Kinds that pull by these slopes at the first quantity in every other stretch of time; nothing else is observed.
     fn pulling(slopes: &[f64]) -> [Vec<Values>; 2] {
-        let mut parts = [[Values::zeros(); KINDS]; STRETCHES];
-        let mut observed = [[false; KINDS]; STRETCHES];
+        let mut parts = vec![[Values::zeros(); KINDS]; STRETCHES];
+        let mut observed = vec![[false; KINDS]; STRETCHES];
         for stretch in (0..STRETCHES).step_by(2) {
             for (kind, slope) in slopes.iter().enumerate() {
                 parts[stretch][kind][0] = *slope;

@@ -2,11 +2,12 @@
 
 use super::planting::times;
 use super::{FRONT, Fault, MS};
+use crate::recording::Planted;
 use ralf::space::{EgoMotion, PoseSample};
 use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
-    [of_scans(), of_motion()].into_iter().flatten().collect()
+    [of_scans(), of_order(), of_motion()].into_iter().flatten().collect()
 }
 
 /// Of LiDARs and radars.
@@ -50,8 +51,12 @@ fn of_scans() -> Vec<Fault> {
                 }
             }
         )),
-        fault!("radar stuck", ["radar_front"], true, |p| p.stuck_radar = Some(FRONT)),
-        fault!("LiDAR stuck", ["lidar_top"], true, |p| p.stuck_lidar = true),
+        fault!("radar stuck", ["radar_front"], true, |p| p.read_of_radars(|radar, scan| if radar == FRONT {
+            0
+        } else {
+            scan
+        })),
+        fault!("LiDAR stuck", ["lidar_top"], true, |p| p.read_of_lidar(|_| 0)),
         fault!("nothing is detected", ["radar_rear"], true, |p| p.edit_radars(|radar, _, columns| {
             if radar == 3 {
                 columns.iter_mut().for_each(Vec::clear);
@@ -71,6 +76,59 @@ fn of_scans() -> Vec<Fault> {
             }
         )),
     ]
+}
+
+/// Files that don't lie in the order of their times.
+fn of_order() -> Vec<Fault> {
+    let as_text = |r: &Remedy| matches!(r, Remedy::LookInto(what) if what.contains("as text"));
+    let backwards = |r: &Remedy| matches!(r, Remedy::LookInto(what) if what.contains("backwards"));
+    vec![
+        fault!("LiDAR files sorted as text", ["lidar_top"], true, lidar_as_text, as_text),
+        fault!(
+            "LiDAR files backwards",
+            ["lidar_top"],
+            true,
+            |p| {
+                let last = p.sequence.times.lidars[0].len() - 1;
+                p.read_of_lidar(move |scan| last - scan);
+            },
+            backwards
+        ),
+        fault!(
+            "files of one radar sorted as text",
+            ["radar_front"],
+            true,
+            |p| {
+                let files = as_text_of(p.sequence.times.radars[FRONT].len());
+                p.read_of_radars(move |radar, scan| if radar == FRONT { files[scan] } else { scan });
+            },
+            as_text
+        ),
+        fault!(
+            "all files sorted as text",
+            ["lidar_top"],
+            true,
+            |p| {
+                lidar_as_text(p);
+                let files: Vec<Vec<usize>> =
+                    p.sequence.times.radars.iter().map(|times| as_text_of(times.len())).collect();
+                p.read_of_radars(move |radar, scan| files[radar][scan]);
+            },
+            as_text
+        ),
+    ]
+}
+
+fn lidar_as_text(p: &mut Planted) {
+    let files = as_text_of(p.sequence.times.lidars[0].len());
+    p.read_of_lidar(move |scan| files[scan]);
+}
+
+/// Numbers from 0 on as a sort of texts has them.
+fn as_text_of(count: usize) -> Vec<usize> {
+    let mut files: Vec<usize> = (0..count).collect();
+    files.sort_by_key(usize::to_string);
+    files
 }
 
 /// Of odometry and poses.

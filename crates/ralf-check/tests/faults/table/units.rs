@@ -3,6 +3,7 @@
 use super::planting::{spherical, times};
 use super::right::near;
 use super::{ALL_RADARS, FRONT, Fault};
+use crate::recording::Planted;
 use ralf::sensors::Intrinsics;
 use ralf_check::Remedy;
 
@@ -15,6 +16,26 @@ fn of_lengths() -> Vec<Fault> {
     vec![
         fault!("positions in cm", ["radar_front"], true, |p| times(p, Some(FRONT), &[0, 1, 2], 100.0), |r| {
             matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
+        }),
+        fault!(
+            "ranges there and back",
+            ["radar_front"],
+            true,
+            |p| times(p, Some(FRONT), &[0, 1, 2], 2.0),
+            |r| { matches!(r, Remedy::Positions(f) if near(*f, 0.5, 1e-9)) }
+        ),
+        fault!("positions in feet", ALL_RADARS, true, |p| times(p, None, &[0, 1, 2], 1.0 / 0.3048), |r| {
+            matches!(r, Remedy::Positions(f) if near(*f, 0.3048, 1e-9))
+        }),
+        fault!(
+            "elevation has the other sign",
+            ["radar_front"],
+            true,
+            |p| times(p, Some(FRONT), &[2], -1.0),
+            |r| { matches!(r, Remedy::LookInto(what) if what.contains("other sign")) }
+        ),
+        fault!("elevation is noise", ["radar_front"], true, noise_for_elevation, |r| {
+            matches!(r, Remedy::LookInto(what) if what.contains("another field"))
         }),
         fault!(
             "LiDAR in cm",
@@ -115,4 +136,16 @@ fn of_angles() -> Vec<Fault> {
             |r| matches!(r, Remedy::Value { key: "sigma_azimuth_deg", value } if near(*value, 0.6, 0.05))
         ),
     ]
+}
+
+/// Elevations of another field, spread over 0.3 rad to either side.
+fn noise_for_elevation(p: &mut Planted) {
+    p.edit_radars(|radar, scan, columns| {
+        let [x, y, z, ..] = &mut columns[..] else { return };
+        for (row, ((x, y), z)) in x.iter().zip(y.iter()).zip(z).enumerate().filter(|_| radar == FRONT) {
+            // Golden steps lie evenly, and not as their neighbours do.
+            let part = ((scan * 7919 + row) as f64 * 0.618_033_988_75).fract();
+            *z = x.hypot(*y) * ((part as f32 - 0.5) * 0.6).tan();
+        }
+    });
 }

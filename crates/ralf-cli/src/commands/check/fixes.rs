@@ -1,15 +1,37 @@
 //! The corrections that a check proposes, as a settings file.
 
-use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State, Verdict};
-use std::collections::BTreeMap;
+mod totals;
 
-/// The text of the file: remedies of what is doubted, and refined corrections of the radars.
-pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
+use ralf::config::ConfigError;
+use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State, Verdict};
+use ralf_data::Settings;
+use totals::{Line, Lines, Totals};
+
+/// The text of the file: remedies of what is doubted, and refined corrections of the radars, with those that the
+/// recording was read with. A later settings file wins over an earlier one, key by key: the whole is told.
+pub(crate) fn text(
+    checks: &[SequenceCheck],
+    refined: &[Refinement],
+    given: &Settings,
+) -> Result<String, ConfigError> {
     let mut text = String::from(
         "# What `ralf check` proposes. Each line is an offer: look at it, and take out what you know better.\n\
          # Corrections are added to what the recording says; ralf label takes them with a --config of their own.\n",
     );
-    let mut lines: BTreeMap<String, String> = BTreeMap::new();
+    let lines = proposed(checks, refined);
+    let is_proposed = lines.keys().any(|key| !key.starts_with('#'));
+    Totals::of(lines, given)?.iter().for_each(|(key, line)| {
+        text += &format!("{key} = {}{}\n", line.value, line.note);
+    });
+    if !is_proposed {
+        text += "# Nothing is proposed.\n";
+    }
+    Ok(text)
+}
+
+/// What is proposed besides what was given, by key. Keys of what is only told begin with `#`.
+fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
+    let mut lines = Lines::new();
     for check in checks {
         let doubted =
             check.verdicts.iter().filter(|verdict| matches!(verdict.state, State::Doubt | State::Fact));
@@ -30,11 +52,7 @@ pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
             add(&mut lines, setting, &deviation);
         }
     }
-    lines.iter().for_each(|(key, rest)| text += &format!("{key}{rest}\n"));
-    if !lines.keys().any(|key| !key.starts_with('#')) {
-        text += "# Nothing is proposed.\n";
-    }
-    text
+    lines
 }
 
 /// Settings are those of all sequences: what is doubted in some of them is not proposed, but told, where it is in order
@@ -58,8 +76,8 @@ fn is_vertical(change: &SensorChange) -> bool {
     change.turn_deg[0] != 0.0 || change.turn_deg[1] != 0.0 || change.shift_m[2] != 0.0
 }
 
-fn add(lines: &mut BTreeMap<String, String>, setting: Setting, note: &str) {
-    lines.entry(setting.key).or_insert_with(|| format!(" = {}{note}", setting.value));
+fn add(lines: &mut Lines, Setting { key, value }: Setting, note: &str) {
+    lines.entry(key).or_insert_with(|| Line { value, note: note.to_owned() });
 }
 
 /// What a refinement proposes, each with its standard deviation as a comment.
@@ -99,6 +117,10 @@ mod tests {
     use super::*;
     use ralf_check::Question;
 
+    fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
+        super::text(checks, refined, &Settings::default()).unwrap()
+    }
+
     fn check(sequence: &str, state: State) -> SequenceCheck {
         let remedy = (state == State::Doubt).then_some(Remedy::Speed(0.5));
         let (subject, question) = ("motion".to_owned(), Question::Motion);
@@ -116,5 +138,32 @@ mod tests {
         assert!(text_of_denied.ends_with(line), "{text_of_denied}");
         let most = [check("00", State::Doubt), check("01", State::Good), check("02", State::Doubt)];
         assert!(text(&most, &[]).contains("\nmotion.speed_factor = 0.5\n"));
+    }
+
+    fn turned(name: &str, yaw: f64) -> Refinement {
+        let change = SensorChange { turn_deg: [0.0, 0.0, yaw], ..SensorChange::default() };
+        Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
+    }
+
+    #[test]
+    fn what_the_recording_was_read_with_is_part_of_what_is_proposed() {
+        let given = "motion.speed_factor = 0.5\ncorrections.a.add_yaw_deg = 3.0\ncorrections.b.time_offset_ms = -20.5";
+        let given = Settings::from_toml(given, &[]).unwrap();
+        let all = super::text(&[check("00", State::Doubt)], &[turned("a", 2.96)], &given).unwrap();
+        for line in ["corrections.a.add_yaw_deg = 5.96", "motion.speed_factor = 0.25"] {
+            assert!(all.contains(&format!("\n{line}\n")), "{all}");
+        }
+        assert!(all.contains("\ncorrections.b.time_offset_ms = -20.5    # as given\n"), "{all}");
+        // Read with its own proposals, it keeps them.
+        let given = Settings::from_toml(&all, &[]).unwrap();
+        let again = super::text(&[], &[], &given).unwrap();
+        assert_eq!(Settings::from_toml(&again, &[]).unwrap(), given);
+        assert!(again.ends_with("# Nothing is proposed.\n"), "{again}");
+        // And what takes it back takes its line away.
+        let back = super::text(&[], &[turned("a", -5.96)], &given).unwrap();
+        assert_eq!(
+            Settings::from_toml(&back, &[]).unwrap().corrections.get("a").copied().unwrap_or_default(),
+            Default::default()
+        );
     }
 }
