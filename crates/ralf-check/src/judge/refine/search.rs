@@ -4,7 +4,7 @@
 //! the speed is the same. So after each quantity for itself the search follows the axes of the likelihood's own bend,
 //! and the standard deviations are those of all quantities together.
 
-use super::evidence::{Evidence, KINDS, Parts};
+use super::evidence::{Evidence, KINDS, Parts, STRETCHES};
 use super::quantity::{QUANTITIES, Values};
 use nalgebra::{Matrix4, SymmetricEigen};
 
@@ -119,30 +119,33 @@ fn reach(quantity: usize) -> Values {
 pub(super) struct Deviations {
     /// By chance: what measurements of the same kind scatter by.
     pub(super) chance: Values,
-    /// By kinds of evidence that contradict each other: more of the same takes nothing from it.
+    /// By kinds of evidence, and drives, that contradict each other: more of the same takes nothing from it.
     pub(super) contradiction: Values,
 }
 
 /// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
 /// what goes together, and from how much parts of the evidence disagree (the sandwich of White, *Econometrica* 50,
-/// 1982), which knows what the model doesn't: stretches of time, and kinds.
+/// 1982), which knows what the model doesn't: stretches of time, kinds, and drives, each of which has walls of its own.
 pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Deviations {
     let covariance = Bend::at(evidence, values, open).covariance();
     let slopes = slopes(evidence, values, open);
-    let [stretches, kinds] =
+    let [stretches, kinds, drives] =
         draws(&slopes, &evidence.observed()).map(|slopes| covariance * disagreement(&slopes) * covariance);
     let of = |variances: Matrix4<f64>| {
         Values::from_fn(|i, _| if open[i] { variances[(i, i)].max(0.0).sqrt().min(1.0) } else { 1.0 })
     };
-    Deviations { chance: of(covariance + stretches), contradiction: of(kinds) }
+    Deviations { chance: of(covariance + stretches), contradiction: of(kinds + drives) }
 }
 
-/// What stretches of time, and kinds of evidence, pull at, of those that hold any: what nothing was measured of pulls
+/// What stretches of time, kinds of evidence, and drives pull at, of those that hold any: what nothing was measured of pulls
 /// nowhere because it says nothing, and not because it agrees.
-fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 2] {
+fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 3] {
     let of_stretch = |stretch: usize| (0..KINDS).map(move |kind| (stretch, kind));
     let stretches = slopes.len();
     let of_kind = |kind: usize| (0..stretches).map(move |stretch| (stretch, kind));
+    let of_drive = |drive: usize| {
+        (drive * STRETCHES..(drive + 1) * STRETCHES).flat_map(move |stretch| of_stretch(stretch))
+    };
     let is_observed = |(stretch, kind): &(usize, usize)| observed[*stretch][*kind];
     let sum = |parts: Vec<(usize, usize)>| {
         let found = parts.into_iter().filter(is_observed).map(|(stretch, kind)| slopes[stretch][kind]);
@@ -151,6 +154,7 @@ fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 2] {
     [
         (0..stretches).filter_map(|stretch| sum(of_stretch(stretch).collect())).collect(),
         (0..KINDS).filter_map(|kind| sum(of_kind(kind).collect())).collect(),
+        (0..stretches / STRETCHES).filter_map(|drive| sum(of_drive(drive).collect())).collect(),
     ]
 }
 
@@ -181,11 +185,10 @@ fn slopes(evidence: &Evidence, values: &Values, open: Open) -> Parts<Values> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::STRETCHES;
     use super::*;
 
     /// Kinds that pull by these slopes at the first quantity in every other stretch of time; nothing else is observed.
-    fn pulling(slopes: &[f64]) -> [Vec<Values>; 2] {
+    fn pulling(slopes: &[f64]) -> [Vec<Values>; 3] {
         let mut parts = vec![[Values::zeros(); KINDS]; STRETCHES];
         let mut observed = vec![[false; KINDS]; STRETCHES];
         for stretch in (0..STRETCHES).step_by(2) {
@@ -200,16 +203,28 @@ mod tests {
     #[test]
     fn what_nothing_was_measured_of_is_no_draw() {
         let half = (STRETCHES / 2) as f64;
-        let [stretches, kinds] = pulling(&[3.0, -1.0]);
+        let [stretches, kinds, drives] = pulling(&[3.0, -1.0]);
         assert_eq!((stretches.len(), kinds.len()), (STRETCHES / 2, 2));
         assert_eq!(disagreement(&stretches), Matrix4::zeros(), "all stretches pull alike");
+        assert_eq!((drives.len(), disagreement(&drives)), (1, Matrix4::zeros()), "a drive alone");
         // Two draws of 3 and -1, each of so many stretches: twice the sum of squares about their mean.
         assert_eq!(disagreement(&kinds)[(0, 0)], 2.0 * 2.0 * (2.0 * half).powi(2));
     }
 
     #[test]
+    fn drives_that_pull_apart_are_as_many_draws() {
+        let mut parts = vec![[Values::zeros(); KINDS]; 2 * STRETCHES];
+        parts[..STRETCHES].iter_mut().for_each(|kinds| kinds[1][0] = 1.0);
+        parts[STRETCHES..].iter_mut().for_each(|kinds| kinds[1][0] = -2.0);
+        let [_, _, drives] = draws(&parts, &vec![[true; KINDS]; 2 * STRETCHES]);
+        let [one, other] = [STRETCHES as f64, -2.0 * STRETCHES as f64];
+        assert_eq!(drives.iter().map(|slopes| slopes[0]).collect::<Vec<_>>(), [one, other]);
+        assert_eq!(disagreement(&drives)[(0, 0)], (one - other).powi(2));
+    }
+
+    #[test]
     fn one_kind_alone_contradicts_nothing() {
-        let [_, kinds] = pulling(&[3.0]);
+        let [_, kinds, _] = pulling(&[3.0]);
         assert_eq!((kinds.len(), disagreement(&kinds)), (1, Matrix4::zeros()));
         assert_eq!(disagreement(&[]), Matrix4::zeros());
     }
@@ -217,7 +232,7 @@ mod tests {
     #[test]
     fn a_kind_that_was_observed_and_pulls_nowhere_is_a_draw() {
         let half = (STRETCHES / 2) as f64;
-        let [_, kinds] = pulling(&[3.0, 0.0, -3.0]);
+        let [_, kinds, _] = pulling(&[3.0, 0.0, -3.0]);
         assert_eq!(disagreement(&kinds)[(0, 0)], 1.5 * 2.0 * (3.0 * half).powi(2));
     }
 }
