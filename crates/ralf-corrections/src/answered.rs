@@ -36,6 +36,12 @@ impl Asked<'_> {
             .optional()
     }
 
+    /// Whether its name is that of an edit of another kind, sequence or author: it can't be noted under it.
+    pub(crate) fn is_taken(&self, on: &Connection) -> rusqlite::Result<bool> {
+        on.prepare_cached("SELECT EXISTS (SELECT 1 FROM edit WHERE id = ?)")?
+            .query_row([&self.who.edit], |row| row.get(0))
+    }
+
     /// Notes what came of it, and answers. `scans` are those that were to be edited.
     pub(crate) fn answer(
         &self,

@@ -54,6 +54,9 @@ fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attem
     if let Some(made) = asked.made_before(on)? {
         return asked.answer_again(on, made, &edits).map(Attempt::Done);
     }
+    if asked.is_taken(on)? {
+        return Ok(Attempt::Taken);
+    }
     let scans: Vec<ScanVersion> = edits.into_iter().map(|(version, _)| version).collect();
     let mut parts = Vec::with_capacity(stroke.scans.len());
     for edit in &stroke.scans {

@@ -10,6 +10,8 @@ use rusqlite::{Connection, OptionalExtension, Row, params};
 pub(crate) enum Attempt {
     Done(Edit),
     Refused(Refusal),
+    /// Its name is another edit's.
+    Taken,
 }
 
 /// Nothing is to be written.

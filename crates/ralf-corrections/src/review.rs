@@ -35,6 +35,9 @@ fn set(on: &Transaction, version: &ScanVersion, mark: &Mark, who: &Who) -> rusql
     if let Some(made) = asked.made_before(on)? {
         return asked.answer_again(on, made, &[(version.clone(), mark.base)]).map(Attempt::Done);
     }
+    if asked.is_taken(on)? {
+        return Ok(Attempt::Taken);
+    }
     let scan = scan_id(on, version)?;
     if let Some(conflict) = overtaken_base(on, scan, mark.base)? {
         return Ok(Attempt::Refused(Refusal { conflict, scans: vec![version.clone()] }));

@@ -83,6 +83,9 @@ fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Resu
     if let Some(made) = asked.made_before(on)? {
         return asked.answer_again(on, made, &[]).map(Attempt::Done);
     }
+    if asked.is_taken(on)? {
+        return Ok(Attempt::Taken);
+    }
     let strokes = match way {
         Way::Undo => strokes_to_undo(on, sequence, &who.author)?,
         Way::Redo => strokes_to_redo(on, sequence, &who.author)?,

@@ -82,22 +82,26 @@ impl Store {
         work: impl FnOnce(&Transaction) -> rusqlite::Result<Attempt>,
     ) -> Result<Outcome, StoreError> {
         self.0.check_there()?;
-        let outcome = attempt(&mut self.0.connection, work).map_err(told(&self.0.file))?;
+        let made = attempt(&mut self.0.connection, work).map_err(told(&self.0.file))?;
+        let taken = || StoreError::request("id", "one of its own", "that of another edit");
+        let outcome = made.ok_or_else(taken)?;
         // What was written to a file that nobody finds any more is not saved.
         self.0.check_there().map(|()| outcome)
     }
 }
 
+/// What came of it; `None` where its name is another edit's.
 fn attempt(
     connection: &mut Connection,
     work: impl FnOnce(&Transaction) -> rusqlite::Result<Attempt>,
-) -> rusqlite::Result<Outcome> {
+) -> rusqlite::Result<Option<Outcome>> {
     let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
     match work(&transaction)? {
-        Attempt::Done(done) => transaction.commit().map(|()| Outcome::Done(done)),
+        Attempt::Done(done) => transaction.commit().map(|()| Some(Outcome::Done(done))),
         Attempt::Refused(refusal) => {
             transaction.rollback()?;
-            refusal.told(connection).map(Outcome::Conflict)
+            refusal.told(connection).map(|conflict| Some(Outcome::Conflict(conflict)))
         }
+        Attempt::Taken => transaction.rollback().map(|()| None),
     }
 }

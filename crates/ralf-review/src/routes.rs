@@ -6,7 +6,7 @@ use crate::http::{Answer, ApiError, Asked, Body, Ends, Guard, MAX_BODY, OPEN, Pe
 use crate::page;
 use crate::reading::{self, About, Around, AskedKinds, LidarProjection, Moment, Near, Projection};
 use axum::extract::{DefaultBodyLimit, State};
-use axum::http::Uri;
+use axum::http::{Method, Uri};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{get, post, put};
@@ -54,13 +54,17 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .with_state(app)
 }
 
-async fn elsewhere(uri: Uri) -> Response {
+async fn elsewhere(method: Method, uri: Uri) -> Response {
     let path = uri.path();
     if path.starts_with("/api/") {
         return ApiError::unknown("address", path, "one of docs/review-api.md").into_response();
     }
+    let reads = matches!(method, Method::GET | Method::HEAD);
     let unknown = || ApiError::unknown("address", path, "one of the page's files").into_response();
-    page::file(path).unwrap_or_else(unknown)
+    match page::file(path) {
+        Some(_) if !reads => ApiError::Method.into_response(),
+        found => found.unwrap_or_else(unknown),
+    }
 }
 
 async fn admit(

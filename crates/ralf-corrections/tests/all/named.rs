@@ -1,6 +1,7 @@
 //! Edits with a name are made once, marks are steps, and a person's name is no person.
 use ralf_corrections::{
-    Conflict, Edit, Mark, Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who,
+    Conflict, Edit, Mark, Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
+    Who,
 };
 
 struct Open {
@@ -106,6 +107,20 @@ fn undo_redo_and_marks_asked_for_twice_are_made_once() {
     let marked = done(open.mark(true, &named("ada", "m1")));
     assert_eq!(done(open.mark(true, &named("ada", "m1"))), marked);
     assert_eq!(open.depths("ada"), (1, 0));
+}
+
+#[test]
+fn a_name_that_another_edit_has_is_refused_and_nothing_is_done() {
+    let mut open = Open::new();
+    done(open.stroke(0, 1, 99, &named("ada", "s1")));
+    let refused = |found: Result<Outcome, StoreError>| {
+        let error = found.unwrap_err();
+        assert!(matches!(error, StoreError::Request { .. }), "{error}");
+        assert_eq!(error.to_string(), "id: expected one of its own, found that of another edit");
+    };
+    refused(open.store.undo("00", &named("ada", "s1")));
+    refused(open.store.undo("00", &named("bob", "s1")));
+    assert_eq!((open.depths("ada"), open.store.counter().unwrap()), ((1, 0), 1));
 }
 
 #[test]

@@ -64,7 +64,11 @@ fn an_edit_whose_answer_was_lost_may_be_asked_for_again() {
     let marked = server.edit("PUT", &path(1), &mark, "one").json();
     assert_eq!(server.edit("PUT", &path(1), &mark, "one").json(), marked);
     assert_eq!(server.of_sequence("history").json()["undo_depth"], 2);
-    assert!(server.edit("POST", "undo", &json!({ "id": "short" }), "one").refused(400).contains("id"));
+    for id in ["short", "mark-0001", "stroke-0001"] {
+        let error = server.edit("POST", "undo", &json!({ "id": id }), "one").refused(400);
+        assert!(error.contains("id"), "{error}");
+    }
+    assert_eq!(server.of_sequence("history").json()["undo_depth"], 2);
 }
 
 #[test]

@@ -193,7 +193,7 @@ fn large_bodies_and_other_methods_are_refused() {
     let head = [("Content-Type", "application/json"), ("Content-Length", &length)];
     let error = server.ask("POST", &path, &head, b"{}").refused(413);
     assert!(error.contains(&MAX_BODY.to_string()), "{error}");
-    for (method, path) in [("POST", "/api/recording"), ("DELETE", &path), ("GET", &path)] {
+    for (method, path) in [("POST", "/api/recording"), ("DELETE", &path), ("GET", &path), ("POST", "/")] {
         server.ask(method, path, &[], &[]).refused(405);
     }
 }
