@@ -2,7 +2,12 @@
 
 use ralf::label::Cause;
 use ralf_corrections::ScanState;
+use ralf_data::result::{Table, Values};
 use ralf_data::{Causes, DataError, GroundTruth, Recording, ScanId};
+use std::sync::Arc;
+
+/// The result's column of what a model calls the causes of artifacts.
+const BY_MACHINE: &str = "cause";
 
 /// The causes that people may say, by number; 0 is none.
 pub(crate) fn sayable() -> [&'static str; Cause::ALL.len()] {
@@ -15,6 +20,25 @@ pub(crate) fn numbered(state: &ScanState) -> impl Iterator<Item = (u32, u8)> {
         let known = Cause::named(name).filter(|cause| *cause != Cause::Plausible)?;
         Some((*point, known as u8))
     })
+}
+
+/// What the machine calls the causes of a scan's artifacts: names by number, of which 0 is none, and the number of each
+/// detection; `None` where no model was asked.
+pub(crate) fn by_machine(rows: &Table) -> Option<(Vec<Arc<str>>, Vec<u8>)> {
+    let told = rows.columns().find_map(|(column, values)| match values {
+        Values::Text(told) if column.name == BY_MACHINE => Some(told),
+        _ => None,
+    })?;
+    let mut names = vec![Arc::from("")];
+    let number = |name: &Arc<str>| {
+        let known = names.iter().position(|known| known == name).unwrap_or(names.len());
+        if known == names.len() {
+            names.push(name.clone());
+        }
+        u8::try_from(known).unwrap_or(0)
+    };
+    let numbers = told.iter().map(number).collect();
+    Some((names, numbers))
 }
 
 /// The names of all causes of all sequences, and what each sequence's codes mean.

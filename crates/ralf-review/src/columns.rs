@@ -62,7 +62,9 @@ const KNOWN: [(&str, Meaning); 20] = [
 pub(crate) fn meaning(column: &Column) -> Meaning {
     let known = KNOWN.iter().find(|(known, _)| *known == column.name);
     let text = if column.group == ralf_data::result::Group::Evidence { column.meaning } else { "" };
-    known.map_or(measured(column.unit, text), |(_, meaning)| *meaning)
+    // Nobody reads "0.25 1".
+    let unit = if column.unit == "1" { "" } else { column.unit };
+    known.map_or(measured(unit, text), |(_, meaning)| *meaning)
 }
 
 const fn place(unit: &'static str, text: &'static str) -> Meaning {

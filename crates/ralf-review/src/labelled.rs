@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::SystemTime;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Row groups that are kept: some 15 MB each, and several radars may be looked at together.
 const GROUPS_KEPT: usize = 12;
@@ -68,6 +68,16 @@ impl SequenceLabels {
 
     pub(crate) fn is_of(&self, stamp: &Stamp) -> bool {
         self.stamp == *stamp
+    }
+
+    /// Names the run that these labels are of: another one once the sequence is labelled again.
+    pub(crate) fn run(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        for (_, length, time) in &self.stamp {
+            let since = time.duration_since(UNIX_EPOCH).unwrap_or_default();
+            hasher.update(&length.to_le_bytes()).update(&since.as_nanos().to_le_bytes());
+        }
+        hasher.finalize().to_hex()[..32].to_owned()
     }
 
     pub(crate) fn load(out: &Path, reader: &dyn SequenceReader, stamp: Stamp) -> Result<Self, ApiError> {

@@ -48,6 +48,10 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
         table.u8("cause", known);
     }
     let mut header = header(&place, &labels, &said);
+    if let Some((names, numbers)) = causes::by_machine(&rows) {
+        table.u8("machine_cause", numbers);
+        header.insert("machine_causes".to_owned(), names.iter().map(|name| json!(**name)).collect());
+    }
     header.insert("content".to_owned(), json!(version.content.hash.map(|hash| hash.to_string())));
     header.insert("stamp".to_owned(), json!(stamp));
     Ok(content("application/octet-stream", table.finish(header)))
@@ -103,6 +107,7 @@ fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<S
     let failed: Vec<&str> =
         failed.into_iter().map(|camera| sequence.rig.cameras[camera].name.as_str()).collect();
     Map::from_iter([
+        ("run".to_owned(), json!(labels.run())),
         ("t_ns".to_owned(), time(place.t_ns)),
         ("revision".to_owned(), json!(said.revision)),
         ("reviewed".to_owned(), reviewed(said)),

@@ -21,7 +21,7 @@ pub(crate) struct Moment {
 
 /// Of every radar asked for the scan nearest to the moment, and as many before and after it as asked for.
 pub(crate) fn moment(app: &App, sequence: &str, asked: &Moment) -> Answer {
-    let (_, reader) = app.sequence(sequence)?;
+    let (index, reader) = app.sequence(sequence)?;
     let malformed = |what: &str| ApiError::Malformed(format!("query: {what}"));
     let t_ns = read_time(&asked.t_ns)?;
     if asked.accumulate > MOST_ACCUMULATED {
@@ -44,5 +44,5 @@ pub(crate) fn moment(app: &App, sequence: &str, asked: &Moment) -> Answer {
         scans.map(|scan| json!({ "radar": radar.name, "scan": scan, "t_ns": time(times[scan]) })).collect()
     };
     let scans: Vec<Value> = radars.flat_map(around).collect();
-    json(&json!({ "scans": scans }))
+    json(&json!({ "run": app.labels(index)?.run(), "scans": scans }))
 }

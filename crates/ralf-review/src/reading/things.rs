@@ -36,11 +36,13 @@ type Asked<'a> = (&'a Sequence, Arc<SequenceThings>, Map<String, Value>);
 
 fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     let (index, reader) = app.sequence(name)?;
-    let things = app.labels(index)?.things(reader)?;
+    let labels = app.labels(index)?;
+    let things = labels.things(reader)?;
     let sequence = reader.sequence();
     let answers = Said::of(app, index, reader)?.answers(app, &things)?;
     let doubtful = things.doubtful(&answers, MOST, app.team.asks(sequence));
     let header = Map::from_iter([
+        ("run".to_owned(), json!(labels.run())),
         ("doubtful".to_owned(), doubtful.things.iter().map(|thing| row(sequence, thing)).collect()),
         ("things".to_owned(), json!(things.count())),
         ("expected_errors".to_owned(), json!(doubtful.expected_errors)),

@@ -7,6 +7,7 @@ mod ending;
 mod harm;
 mod images;
 mod killed;
+mod learned;
 mod reading;
 mod safety;
 mod support;

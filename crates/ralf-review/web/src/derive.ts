@@ -9,9 +9,9 @@ import { paint } from "./viewer/colours.js";
 
 export function deriveAlways(store: Store<State>): void {
   store.watch(
-    ({ cloud, filter, scope }) => [cloud, filter, scope],
-    (cloud, filter, scope) => {
-      const { labels, recording, selection } = store.state;
+    ({ cloud, filter, scope, recording }) => [cloud, filter, scope, recording],
+    (cloud, filter, scope, recording) => {
+      const { labels, selection } = store.state;
       const passed = visible(cloud, filter, labels, certaintyOf(recording));
       const shown = intersection(passed, inAreas(cloud, filter.areas, homeOf(store.state), labels));
       const eligible = scope === "shown" ? shown : shown.map((value, i) => value & Number(cloud.scanOf[i] === 0));
@@ -20,9 +20,9 @@ export function deriveAlways(store: Store<State>): void {
     },
   );
   store.watch(
-    ({ cloud, colour }) => [cloud, colour],
-    (cloud, colour) => {
-      const { labels, recording } = store.state;
+    ({ cloud, colour, recording }) => [cloud, colour, recording],
+    (cloud, colour, recording) => {
+      const { labels } = store.state;
       store.set({ painting: paint(cloud, colour, labels, recording) });
     },
   );

@@ -11,6 +11,7 @@ import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
 import { Queueing } from "./queueing.js";
+import { Relabelling } from "./relabelling.js";
 import { Reviewing } from "./reviewing.js";
 import { Recalling } from "./recalling.js";
 import { Replaying } from "./replaying.js";
@@ -42,10 +43,12 @@ export interface Actions {
 }
 
 export function actionsOn(world: World, keeper: Keeper): Actions {
-  const go = new Navigation(world, new Moment(world));
+  const moment = new Moment(world);
+  const go = new Navigation(world, moment);
   const queueing = new Queueing(world);
-  const adopting = new Adopting(world, queueing);
-  const thing = new Thinging(world, go);
+  const adopting = new Adopting(world, queueing, moment);
+  const relabelling = new Relabelling(world);
+  const thing = new Thinging(world, go, adopting);
   const correct = new Correcting(world, go, adopting, keeper);
   const settle = new Settling(world, go, correct);
   const kind = new Kinding(world, go, correct);
@@ -58,7 +61,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     select,
     pick: new Picking(world),
     view: new Viewing(world),
-    hear: new Hearing(world, adopting, correct, queueing),
+    hear: new Hearing(world, adopting, correct, queueing, relabelling),
     hold: new Holding(world),
     thing,
     rule: new Ruling(world, go, select, correct),

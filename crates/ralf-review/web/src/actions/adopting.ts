@@ -2,16 +2,19 @@
 
 import { Conflict } from "../api/errors.js";
 import type { ScanCorrections } from "../api/types.js";
-import { withScans } from "../data/cloud.js";
+import { holdsStill, withScans } from "../data/cloud.js";
 import { sameScan, type Scan, withCorrections } from "../data/scan.js";
 import { progressOf, withAnswers } from "../queue/queue.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
+import type { Moment } from "./moment.js";
 import type { Queueing } from "./queueing.js";
-import { complain, type World } from "./world.js";
+import { complain, tell, type World } from "./world.js";
 
 export class Adopting {
   constructor(
     private readonly world: World,
     private readonly queueing: Queueing,
+    private readonly moment: Moment,
   ) {}
 
   /** Takes over what is said of some scans now. */
@@ -35,23 +38,42 @@ export class Adopting {
     );
   }
 
-  /** Reads scans on screen anew. */
-  async reread(sequence: string, stale: readonly Scan[]): Promise<void> {
+  /** Reads scans on screen anew; false where they hold other detections by now, which is told. */
+  async reread(sequence: string, stale: readonly Scan[]): Promise<boolean> {
     const { store, loader } = this.world;
     // Radars have the same names in another sequence, and scans the same numbers.
     const isHere = (): boolean => sequence === store.state.sequence;
-    if (!isHere() || stale.length === 0) return;
+    if (!isHere() || stale.length === 0) return true;
     for (const scan of stale) loader.forget(sequence, scan);
     const fresh = await loader.newest(sequence, stale);
-    if (isHere()) store.set({ cloud: withScans(store.state.cloud, fresh) });
+    if (!isHere()) return true;
+    const { cloud } = store.state;
+    const still = holdsStill(cloud, fresh);
+    if (still) store.set({ cloud: withScans(cloud, fresh) });
+    else await this.startOver();
+    return still;
+  }
+
+  /** Nothing that was chosen among the detections on screen means anything among those that are there now. */
+  private async startOver(): Promise<void> {
+    const { store, loader } = this.world;
+    loader.forgetScans();
+    store.set({ ...NOTHING_LOOKED_AT, accepting: null, selection: new Uint8Array(store.state.cloud.count) });
+    tell(this.world, "The recording holds other detections of this moment now: look at it again.");
+    if (store.state.current !== null) await this.moment.show(store.state.current);
   }
 
   /** The labels are others than those on screen: everything that was read of them is read anew. */
   async readAllAnew(): Promise<void> {
+    await this.rereadAll();
+    await this.queueing.read();
+  }
+
+  /** Forgets all scans, and reads those on screen anew. */
+  async rereadAll(): Promise<void> {
     const { store, loader } = this.world;
     loader.forgetScans();
     await this.reread(store.state.sequence, store.state.cloud.scans);
-    await this.queueing.read();
   }
 
   /** Says why something was not done, and shows what is there in its place. */

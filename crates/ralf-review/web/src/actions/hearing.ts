@@ -6,6 +6,7 @@ import { sameScan } from "../data/scan.js";
 import type { Adopting } from "./adopting.js";
 import type { Correcting } from "./correcting.js";
 import type { Queueing } from "./queueing.js";
+import type { Relabelling } from "./relabelling.js";
 import { complain, tell, type World } from "./world.js";
 
 const PATIENCE_MS = 1500;
@@ -20,6 +21,7 @@ export class Hearing {
     private readonly adopting: Adopting,
     private readonly correcting: Correcting,
     private readonly queueing: Queueing,
+    private readonly relabelling: Relabelling,
   ) {
     // A stroke got no answer: whether the server is there is asked at once, and not when the long wait ends.
     world.store.watch(
@@ -73,9 +75,9 @@ export class Hearing {
   private async reconnected(sequence: string): Promise<void> {
     const { store } = this.world;
     if (store.state.link.kind === "fine") return;
-    await Promise.all([this.queueing.read(), this.readHistory(sequence)]);
+    await Promise.all([this.relabelling.read(), this.queueing.read(), this.readHistory(sequence)]);
     store.set({ link: { kind: "fine" } });
-    await this.adopting.reread(sequence, store.state.cloud.scans);
+    await this.adopting.rereadAll();
     await this.correcting.retry();
   }
 
@@ -95,14 +97,14 @@ export class Hearing {
     for (const change of scans) this.world.loader.forget(sequence, change);
     if (scans.length === 0 || sequence !== store.state.sequence) return;
     const { cloud, current } = store.state;
-    await this.adopting.reread(
+    const still = await this.adopting.reread(
       sequence,
       cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
     );
     // Another window of this browser is the same person: what can be undone here is what was done there.
     await Promise.all([this.queueing.read(), this.readHistory(sequence)]);
     const here = scans.find((change) => sameScan(change, current));
-    if (here !== undefined)
+    if (here !== undefined && still)
       tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
 }

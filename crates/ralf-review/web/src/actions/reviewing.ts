@@ -10,7 +10,7 @@ import { askPatiently } from "./asking.js";
 import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
 import type { Queueing } from "./queueing.js";
-import { readOnly, type World } from "./world.js";
+import { dismissProblem, readOnly, type World } from "./world.js";
 
 export class Reviewing {
   private readonly sight = new Sight();
@@ -24,7 +24,10 @@ export class Reviewing {
   ) {
     world.store.watch(
       ({ current }) => [current],
-      () => this.cancel(),
+      () => {
+        this.cancel();
+        dismissProblem(world);
+      },
     );
   }
 
@@ -86,6 +89,7 @@ export class Reviewing {
       const { revision } = scan;
       const { stamp } = scan.table.header;
       const answer = await askPatiently((id) => api.reviewed(sequence, scan, { id, reviewed, revision, stamp }));
+      dismissProblem(this.world);
       await this.adopt(sequence, scan, answer);
       return true;
     } catch (error) {

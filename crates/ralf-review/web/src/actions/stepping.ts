@@ -8,7 +8,7 @@ import type { Adopting } from "./adopting.js";
 import { askPatiently } from "./asking.js";
 import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
-import { readOnly, tell, type World } from "./world.js";
+import { dismissProblem, readOnly, tell, type World } from "./world.js";
 
 export class Stepping {
   constructor(
@@ -41,6 +41,7 @@ export class Stepping {
     try {
       const answer = await askPatiently((id) => api[what](sequence, id));
       if (isHere()) store.set({ history: answer.history });
+      dismissProblem(this.world);
       if (answer.changed === 0) tell(this.world, `Nothing is left to ${what} in sequence ${sequence}.`);
       await this.adopting.adopt(sequence, answer.scans);
       const elsewhere = answer.scans.every((scan) => !store.state.cloud.scans.some((other) => sameScan(other, scan)));

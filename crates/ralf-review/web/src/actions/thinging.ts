@@ -5,6 +5,7 @@ import { maskOf } from "../data/cloud.js";
 import { nextThing, placeOf, type Place, Things, wholeThings } from "../data/things.js";
 import { movePlace } from "../data/transform.js";
 import { NOTHING_LOOKED_AT } from "../state.js";
+import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
 import { complain, tell, type World } from "./world.js";
 
@@ -22,18 +23,18 @@ export class Thinging {
   constructor(
     private readonly world: World,
     private readonly navigation: Navigation,
+    private readonly adopting: Adopting,
   ) {
     world.store.watch(
       ({ sequence }) => [sequence],
       () => {
-        [this.loading, this.things] = [null, null];
-        [this.doubtful, this.seen] = [[], []];
+        this.forget();
         world.store.set({ thing: null });
       },
     );
   }
 
-  /** Reads what belongs together, once per sequence. */
+  /** Reads what belongs together, once per sequence and run. */
   load(): Promise<Things> {
     const { store, api } = this.world;
     const { sequence } = store.state;
@@ -48,11 +49,12 @@ export class Thinging {
 
   /** To the next place where wrong labels are expected, with its most doubtful thing selected. */
   async next(): Promise<void> {
-    const { store, api } = this.world;
+    const { store } = this.world;
     const { sequence } = store.state;
     try {
       if (this.things === null) await this.load();
-      else this.doubtful = (await api.doubtful(sequence)).doubtful;
+      else await this.hear(sequence);
+      if (sequence !== store.state.sequence) return;
       const next = nextThing(this.doubtful, this.seen);
       if (next !== null) return await this.show(next);
       store.set({ thing: null });
@@ -60,6 +62,27 @@ export class Thinging {
     } catch (error) {
       complain(this.world, error);
     }
+  }
+
+  /** Hears what is doubtful by now: numbers of things, and those of another run are of other things. */
+  private async hear(sequence: string): Promise<void> {
+    const { store, api } = this.world;
+    const { run, doubtful } = await api.doubtful(sequence);
+    if (sequence !== store.state.sequence) return;
+    if (run === this.things?.run) this.doubtful = doubtful;
+    else await this.loadAnew();
+  }
+
+  /** Somebody labelled again: what belonged together, and what was looked at, was of other labels. */
+  private async loadAnew(): Promise<void> {
+    this.forget();
+    await this.adopting.readAllAnew();
+    await this.load();
+  }
+
+  private forget(): void {
+    [this.loading, this.things] = [null, null];
+    [this.doubtful, this.seen] = [[], []];
   }
 
   /** Puts a thing on screen, with all that is known of its place. */
@@ -79,8 +102,11 @@ export class Thinging {
   /** The things of what was chosen, as far as they are shown. */
   whole(chosen: Uint8Array): Uint8Array {
     const { cloud, shown } = this.world.store.state;
-    if (this.things !== null) return wholeThings(this.things, cloud, chosen, shown);
-    void this.load().catch((error: unknown) => complain(this.world, error));
+    const { things } = this;
+    const known = things !== null && cloud.scans.every(({ table }) => table.header.run === things.run);
+    if (known) return wholeThings(things, cloud, chosen, shown);
+    const loading = things === null ? this.load() : this.loadAnew();
+    void loading.catch((error: unknown) => complain(this.world, error));
     tell(this.world, "Finding out what belongs together; choose again in a moment.");
     return chosen;
   }

@@ -22,6 +22,11 @@ export function complain({ store }: World, error: unknown): void {
   store.set({ notice: { text: messageOf(error), kind: "problem" } });
 }
 
+/** What went wrong before doesn't concern anybody any more. */
+export function dismissProblem({ store }: World): void {
+  if (store.state.notice?.kind === "problem") store.set({ notice: null });
+}
+
 /** Whether nothing can be corrected here, which is said. */
 export function readOnly(world: World): boolean {
   const reason = world.store.state.recording.read_only;

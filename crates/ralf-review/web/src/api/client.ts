@@ -20,11 +20,11 @@ import type {
   ReviewedAnswer,
   ScanHeader,
   ScanId,
+  ScansAround,
   StrokeAnswer,
   StrokeRequest,
   ThingInImageHeader,
   ThingsHeader,
-  TimedScan,
   Workday,
 } from "./types.js";
 
@@ -149,14 +149,9 @@ export class Api {
     return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/things/${thing}`);
   }
 
-  async moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<readonly TimedScan[]> {
+  moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<ScansAround> {
     const query = new URLSearchParams({ t_ns: tNs, accumulate: String(accumulate), radars: "all" });
-    const answer = await this.json<{ scans: readonly TimedScan[] }>(
-      "GET",
-      `${inSequence(sequence)}/moment?${query}`,
-      call,
-    );
-    return answer.scans;
+    return this.json("GET", `${inSequence(sequence)}/moment?${query}`, call);
   }
 
   stroke(sequence: string, stroke: StrokeRequest): Promise<StrokeAnswer> {

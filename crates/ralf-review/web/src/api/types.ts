@@ -106,6 +106,8 @@ export interface DoubtfulThing extends ScanId {
 }
 
 export interface Doubtful {
+  /** The run that the things are of. */
+  readonly run: string;
   /** Those with the most expected errors first. */
   readonly doubtful: readonly DoubtfulThing[];
   readonly things: number;
@@ -203,6 +205,8 @@ export interface CameraImageId {
 }
 
 export interface ScanHeader {
+  /** The run that labelled it: another one once somebody labels again. */
+  readonly run: string;
   readonly t_ns: string;
   /** Of the detections: a scan with others has another one. */
   readonly content: string;
@@ -217,6 +221,8 @@ export interface ScanHeader {
   readonly lidar: { readonly name: string; readonly scan: number } | null;
   readonly cameras: readonly CameraImageId[];
   readonly failed_cameras: readonly string[];
+  /** Where a model was asked: the names of causes by their numbers in the column `machine_cause`; 0 is none. */
+  readonly machine_causes?: readonly string[];
 }
 
 export interface LidarHeader {
@@ -231,6 +237,12 @@ export interface ThingInImageHeader {
 
 export interface TimedScan extends ScanId {
   readonly t_ns: string;
+}
+
+/** Which scans belong on the screen, and the run whose labels theirs are now. */
+export interface ScansAround {
+  readonly run: string;
+  readonly scans: readonly TimedScan[];
 }
 
 export interface BaseRevision extends ScanId {

@@ -170,7 +170,7 @@ export class CameraView {
     const eligible = lookedAt(state) === null ? state.eligible : selection;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
-      const waiting = maskOf(cloud, pointsIn(sequence, state.waiting));
+      const waiting = maskOf(cloud, pointsIn(sequence, cloud.scans, state.waiting));
       drawDetections(
         context,
         this.placed(),

@@ -3,7 +3,7 @@
 import { type Column, type ColumnGroup, floats } from "../api/table.js";
 import type { ScanId, ScanPoints } from "../api/types.js";
 import { classSource } from "./classes.js";
-import { sameScan, type Scan, scanKey } from "./scan.js";
+import { sameDetections, sameScan, type Scan, scanKey } from "./scan.js";
 import { movePoints, targetFromSource } from "./transform.js";
 
 export interface Cloud {
@@ -53,10 +53,19 @@ export function buildCloud(scans: readonly Scan[]): Cloud {
   return { ...labelsOf(scans, count), ...places, scans, count, starts, scanOf };
 }
 
-/** The same cloud where some scans' labels are others. */
+/** The same cloud where some scans' labels are others; throws where their detections are. */
 export function withScans(cloud: Cloud, changed: readonly Scan[]): Cloud {
   const scans = cloud.scans.map((scan) => changed.find((other) => sameScan(scan, other)) ?? scan);
+  if (!holdsStill(cloud, scans)) throw new Error("scans: expected the detections that are on screen, found others");
   return { ...cloud, scans, ...labelsOf(scans, cloud.count) };
+}
+
+/** Whether scans that were read anew hold the detections that they have on screen. */
+export function holdsStill(cloud: Cloud, read: readonly Scan[]): boolean {
+  return cloud.scans.every((scan) => {
+    const now = read.find((other) => sameScan(scan, other));
+    return now === undefined || sameDetections(scan, now);
+  });
 }
 
 /** A column of every scan, one after the other; NaN where a scan doesn't have it. */

@@ -2,8 +2,9 @@
 
 import type { Recording } from "../api/types.js";
 import type { Area } from "./area.js";
-import { gather, type Cloud } from "./cloud.js";
+import { gather, type Cloud, pointOf } from "./cloud.js";
 import type { LabelBook } from "./labels.js";
+import { isAccepted } from "./scan.js";
 
 export type Span = readonly [least: number, most: number];
 export type Origin = "any" | "corrected" | "machine";
@@ -86,7 +87,7 @@ export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, certain
     shown[i] = Number(
       shownScans[cloud.scanOf[i]] &&
         filter[labels.truth(cloud.label[i])] &&
-        (filter.origin === "any" || corrected === (filter.origin === "corrected")) &&
+        (filter.origin === "any" || isBy(filter.origin, cloud, i)) &&
         (!filter.uncertain || (!corrected && isUncertain(score[i], flags[i], certainty))) &&
         (anyScore || within(score[i], filter.score)) &&
         within(range[i], filter.range) &&
@@ -108,6 +109,12 @@ export function hides(filter: Filter): boolean {
     if (key === "columns" || key === "areas") return filter[key].length > 0;
     return Array.isArray(now) ? String(now) !== String(whole) : now !== whole;
   });
+}
+
+function isBy(origin: Origin, cloud: Cloud, index: number): boolean {
+  if (cloud.corrected[index] === 1) return origin === "corrected";
+  const { scan, point } = pointOf(cloud, index);
+  return origin === "machine" && !isAccepted(scan, point);
 }
 
 function within(value: number, [least, most]: Span): boolean {

@@ -23,15 +23,23 @@ export class Loader {
   private readonly overlays = new Cache<LidarInImage>(16);
   /** Counts what was said of scans since the page was opened. */
   private said = 0;
+  /** By sequence: the run whose labels were heard of last. */
+  private readonly runs = new Map<string, string>();
 
   constructor(private readonly api: Api) {}
 
   scan(sequence: string, id: ScanId): Promise<Scan> {
-    return this.scans.get(key(sequence, scanKey(id)), async () => scanFromTable(id, await this.api.scan(sequence, id)));
+    return this.scans.get(key(sequence, scanKey(id)), async () => {
+      const table = await this.api.scan(sequence, id);
+      this.heard(sequence, table.header.run);
+      return scanFromTable(id, table);
+    });
   }
 
-  /** Keeps a scan whose labels are others now. */
+  /** Keeps a scan whose labels are others now, unless somebody labelled again since it was read. */
   keep(sequence: string, scan: Scan): void {
+    const { run } = scan.table.header;
+    if ((this.runs.get(sequence) ?? run) !== run) return this.forget(sequence, scan);
     this.said += 1;
     this.scans.put(key(sequence, scanKey(scan)), Promise.resolve(scan));
   }
@@ -41,18 +49,25 @@ export class Loader {
     this.scans.forget(key(sequence, scanKey(id)));
   }
 
-  /** Other labels make other things. */
+  /** Other labels make other things, and other detections have other places in the images. */
   forgetScans(): void {
     this.said += 1;
-    this.scans.clear();
-    this.things.clear();
+    for (const kept of [this.scans, this.things, this.places]) kept.clear();
+  }
+
+  /** Once somebody labels again, nothing that was read of the labels before is shown beside the new ones. */
+  private heard(sequence: string, run: string): void {
+    const before = this.runs.get(sequence);
+    this.runs.set(sequence, run);
+    if (before !== undefined && before !== run) this.forgetScans();
   }
 
   /** The scan and those around it, of every radar, with so many neighbours; they are read by then. */
   async around(sequence: string, id: ScanId, accumulate: number): Promise<readonly ScanId[]> {
     const first = await this.scan(sequence, id);
-    const around = await this.api.moment(sequence, first.table.header.t_ns, accumulate);
-    const others = around.filter((other) => !sameScan(other, id)).map(({ radar, scan }) => ({ radar, scan }));
+    const { run, scans } = await this.api.moment(sequence, first.table.header.t_ns, accumulate);
+    this.heard(sequence, run);
+    const others = scans.filter((other) => !sameScan(other, id)).map(({ radar, scan }) => ({ radar, scan }));
     await Promise.all(others.map((other) => this.scan(sequence, other)));
     return [id, ...others];
   }

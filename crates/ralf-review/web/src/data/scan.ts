@@ -27,6 +27,23 @@ export function sameScan(a: ScanId | null, b: ScanId | null): boolean {
   return a !== null && b !== null && a.radar === b.radar && a.scan === b.scan;
 }
 
+/** Whether a detection has the label that somebody accepted with the scan, and the machine says otherwise by now. */
+export function isAccepted({ reviewed, corrected, label, machine }: Scan, point: number): boolean {
+  return reviewed !== null && corrected[point] === 0 && label[point] !== machine[point];
+}
+
+/** Whether both hold the same detections in the same places: the numbers of one mean the same in the other. */
+export function sameDetections({ table: a }: Scan, { table: b }: Scan): boolean {
+  if (a === b) return true;
+  const [one, other] = [a.header, b.header];
+  const moved = String(one.odom_from_vehicle) !== String(other.odom_from_vehicle);
+  if (a.rows !== b.rows || one.content !== other.content || one.t_ns !== other.t_ns || moved) return false;
+  return ["x", "y", "z"].every((name) => {
+    const places = floats(b, name);
+    return floats(a, name).every((value, i) => Object.is(value, places[i]));
+  });
+}
+
 export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>): Scan {
   floats(table, "x");
   return {

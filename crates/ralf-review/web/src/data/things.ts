@@ -20,6 +20,11 @@ export class Things {
     );
   }
 
+  /** The run that they are of. */
+  get run(): string {
+    return this.table.header.run;
+  }
+
   /** The thing of a scan's detection; -1 where none is known. */
   of(scan: ScanId, point: number): number {
     return this.byScan.get(scanKey(scan))?.[point] ?? -1;

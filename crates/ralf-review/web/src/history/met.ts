@@ -22,7 +22,7 @@ export interface Asked extends Picture {
 
 /** Whether the stroke's detections are on screen, and selected. */
 export function isShown({ pending }: Met, { sequence, cloud, selection }: Picture): boolean {
-  const its = maskOf(cloud, pointsIn(sequence, [pending]));
+  const its = maskOf(cloud, pointsIn(sequence, cloud.scans, [pending]));
   const count = countOf(its);
   return count > 0 && countOf(intersection(its, selection)) === count;
 }

@@ -14,7 +14,7 @@ import type {
   StrokeAnswer,
   StrokeRequest,
 } from "../api/types.js";
-import { sameScan } from "../data/scan.js";
+import { sameScan, type Scan, scanKey } from "../data/scan.js";
 import { Overlaid } from "./overlaid.js";
 
 export interface Pending {
@@ -214,9 +214,22 @@ export function pointsOf(strokes: readonly Pending[]): readonly ScanPoints[] {
   return strokes.flatMap(({ stroke }) => stroke.points);
 }
 
-/** Those in one sequence: radars have the same names in another, and scans the same numbers. */
-export function pointsIn(sequence: string, strokes: readonly Pending[]): readonly ScanPoints[] {
-  return pointsOf(strokes.filter((pending) => pending.sequence === sequence));
+/**
+ * Those in one sequence: radars have the same names in another, and scans the same numbers. Without those of a scan on
+ * screen that holds other detections than they were chosen among.
+ */
+export function pointsIn(sequence: string, scans: readonly Scan[], strokes: readonly Pending[]): readonly ScanPoints[] {
+  const now = new Map(scans.map((scan) => [scanKey(scan), scan.table.header.content]));
+  return strokes.flatMap((pending) => {
+    const { base, points } = pending.stroke;
+    if (pending.sequence !== sequence) return [];
+    const others = new Set(base.filter((scan) => isOther(scan.content, now.get(scanKey(scan)))).map(scanKey));
+    return points.filter((part) => !others.has(scanKey(part)));
+  });
+}
+
+function isOther(then: string | undefined, now: string | undefined): boolean {
+  return then !== undefined && now !== undefined && then !== now;
 }
 
 /** Whether both are one step to the person who made them. */

@@ -5,17 +5,19 @@ import type { Past, Recording, Saying } from "../api/types.js";
 import { sourceName, UNTOLD } from "../data/classes.js";
 import { type Cloud, columnOf, columnsOf, type NumberColumn, pointOf } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
+import { isAccepted } from "../data/scan.js";
 import { isMark, withMarksTogether } from "../data/team.js";
 import { h } from "../dom.js";
-import { clock, counted, decimal, degrees } from "../format.js";
+import { clock, counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
+import { fact, numbersOf } from "./facts.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
 
 export function detailsPanel({ store }: Page): HTMLElement {
   const body = h("div", { class: "details-body" });
   store.watch(
-    ({ hover, cloud, selection, past }) => [hover, cloud, selection, past],
+    ({ hover, cloud, selection, past, recording }) => [hover, cloud, selection, past, recording],
     (hover, cloud, selection, past) => {
       const selected = countOf(selection);
       const index = hover >= 0 ? hover : selected === 1 ? selection.indexOf(1) : -1;
@@ -68,11 +70,7 @@ function about(state: Readonly<State>, cloud: Cloud, index: number): HTMLElement
       ...byName(of("plausibility")).map((column) => branch(column, value(column.name), recording.threshold)),
     ),
     h("dl", { class: "facts words" }, ...said(state, cloud, index)),
-    h(
-      "dl",
-      { class: "facts" },
-      ...numbers.flatMap((column) => fact(column.name, measured(value(column.name), column.unit), column.meaning)),
-    ),
+    ...numbersOf(numbers, value),
   ];
 }
 
@@ -83,19 +81,28 @@ function heading(cloud: Cloud, index: number, labels: LabelBook): HTMLElement {
     { class: labels.truth(label) },
     h("span", { class: "dot" }),
     labels.name(label),
-    h("span", { class: "faint" }, cloud.corrected[index] === 1 ? "corrected" : "by machine"),
+    h("span", { class: "faint" }, sayer(cloud, index)),
   );
+}
+
+/** Who says what the label is. */
+export function sayer(cloud: Cloud, index: number): string {
+  const { scan, point } = pointOf(cloud, index);
+  if (cloud.corrected[index] === 1) return "corrected";
+  return isAccepted(scan, point) ? `accepted by ${scan.reviewed?.author ?? "somebody"}` : "by machine";
 }
 
 /** What the machine said where a person said otherwise, who tells the class, and the cause where it is known. */
 function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: number): HTMLElement[] {
   const { scan, point } = pointOf(cloud, index);
   const named = labels.nameWith(scan.machine[point], tellerOf(scan.classFrom[point], recording));
-  const machine = cloud.corrected[index] === 1 ? fact("machine", named) : [];
+  const machine = sayer(cloud, index) === "by machine" ? [] : fact("machine", named);
   const teller = tellerOf(cloud.classFrom[index], recording);
   const from = teller === null ? [] : fact("class from", teller, "what tells the class");
   const { causes } = recording;
-  const cause = causes === null ? [] : fact("cause", causes[columnOf(cloud, index, "cause")] || "none");
+  const truth = causes === null ? [] : fact("true cause", causes[columnOf(cloud, index, "cause")] || "none");
+  const guess = scan.table.header.machine_causes?.[columnOf(cloud, index, "machine_cause")] ?? "";
+  const cause = guess === "" ? truth : [...truth, ...fact("cause by machine", guess)];
   const why = recording.sayable_causes[cloud.saidCause[index]] ?? "";
   return [...machine, ...from, ...cause, ...(why === "" ? [] : fact("cause said", why))];
 }
@@ -129,11 +136,6 @@ function byName(columns: readonly NumberColumn[]): readonly NumberColumn[] {
   return [...columns].sort((a, b) => a.name.length - b.name.length);
 }
 
-function measured(value: number, unit: string): string {
-  if (unit === "rad") return degrees(value);
-  return unit === "" || !Number.isFinite(value) ? decimal(value, 2) : `${decimal(value, 2)} ${unit}`;
-}
-
 /** A plausibility as a bar, with a tick at the threshold. */
 function branch({ name, meaning }: NumberColumn, value: number, threshold: number): HTMLElement {
   const known = Number.isFinite(value);
@@ -148,8 +150,4 @@ function branch({ name, meaning }: NumberColumn, value: number, threshold: numbe
     h("span", { class: "branch-bar" }, fill, tick),
     h("b", { class: "number" }, decimal(value, 2)),
   );
-}
-
-function fact(name: string, value: string, meaning = ""): HTMLElement[] {
-  return [h("dt", { title: meaning }, name), h("dd", { class: "number" }, value)];
 }

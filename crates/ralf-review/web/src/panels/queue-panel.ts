@@ -169,7 +169,7 @@ function head({ store, actions }: Page): HTMLElement {
   );
   const { dataset, out } = store.state.recording;
   const brand = h(
-    "div",
+    "h1",
     { class: "brand", title: `${dataset}, labels in ${out}` },
     h("strong", {}, "RALF"),
     h("span", {}, "review"),

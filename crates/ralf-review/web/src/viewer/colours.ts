@@ -32,7 +32,7 @@ export function colourModes(cloud: Cloud, { causes }: Pick<Recording, "causes">)
   const columns = columnsOf(cloud)
     .filter(({ group }) => group !== "place")
     .map(({ name, meaning }) => option(`${COLUMN}${name}`, name, meaning));
-  const cause = causes === null ? [] : [option("cause", "Cause")];
+  const cause = causes === null ? [] : [option("cause", "True cause", "as the recording tells it")];
   return [
     option("label", "Label"),
     option("class", "Class"),

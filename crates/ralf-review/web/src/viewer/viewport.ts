@@ -98,11 +98,11 @@ export class Viewport {
       },
     );
     store.watch(
-      (state) => [state.cloud, state.shown, nearOf(state), state.selection, state.waiting],
-      (cloud, shown, near, selection, strokes) => {
+      (state) => [state.cloud, state.shown, nearOf(state), state.selection, state.waiting, state.recording],
+      (cloud, shown, near, selection, strokes, recording) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
-        const waiting = maskOf(cloud, pointsIn(store.state.sequence, strokes));
-        view.radar.setMarks(marksOf(cloud, { shown, near, selection, waiting }, certaintyOf(store.state.recording)));
+        const waiting = maskOf(cloud, pointsIn(store.state.sequence, cloud.scans, strokes));
+        view.radar.setMarks(marksOf(cloud, { shown, near, selection, waiting }, certaintyOf(recording)));
         this.changed();
       },
     );

@@ -100,6 +100,7 @@ test("labels that changed under the page are told, shown, and not accepted", asy
   await drawn(page);
   await page.keyboard.press("r");
   await says(page.locator(".review"), "Reviewed by ada");
+  await page.locator(".notice").waitFor({ state: "hidden" });
   clean(tab, REFUSED);
 });
 

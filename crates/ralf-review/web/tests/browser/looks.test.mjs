@@ -36,6 +36,7 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   const { server, tab, page } = await opened(context, browser);
   const faults = (where) => faultsOf(page, where);
   await faults("the page");
+  assert.equal(await page.locator("h1").count(), 1);
   await page.keyboard.press("d");
   await faults("a detection");
   await page.keyboard.press("a");

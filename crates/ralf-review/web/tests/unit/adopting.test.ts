@@ -31,17 +31,20 @@ class Desk {
   readonly adopting: Adopting;
   readonly moment: Moment;
   /** What the server says of both detections of every scan. */
-  readonly now = [PLAUSIBLE, PLAUSIBLE];
+  now: readonly number[] = [PLAUSIBLE, PLAUSIBLE];
+  /** What every scan holds, and the run that labelled it. */
+  content = "then";
+  run = "first";
   private readonly answers = new Map<string, () => void>();
 
   constructor() {
     const api = {
       scan: (_: string, { radar, scan }: ScanId) => this.answer(`scan ${scan}`, this.made(radar, scan).table),
-      moment: () => this.answer("moment", [HERE, NEXT, LAST]),
+      moment: () => this.answer("moment", { run: this.run, scans: [HERE, NEXT, LAST] }),
     } as unknown as Api;
     const world = { store: this.store, api, loader: new Loader(api) } as unknown as World;
-    this.adopting = new Adopting(world, { soon: () => undefined } as unknown as Queueing);
     this.moment = new Moment(world);
+    this.adopting = new Adopting(world, { soon: () => undefined } as unknown as Queueing, this.moment);
     this.open("00");
   }
 
@@ -62,7 +65,8 @@ class Desk {
   }
 
   private made(radar: string, scan: number): Scan {
-    return made(radar, scan, { x: [1, 2], machine: this.now });
+    const x = this.now.map((_, i) => i + 1);
+    return made(radar, scan, { x, machine: this.now, content: this.content, run: this.run });
   }
 
   private answer<Answer>(name: string, answer: Answer): Promise<Answer> {
@@ -85,7 +89,7 @@ test("so does one on a scan that wasn't on screen: it is read anew", async () =>
   const showing = desk.moment.show(HERE);
   await desk.come("scan 0", "moment", "scan 1");
   await desk.adopting.adopt("00", [corrected(NEXT)]);
-  desk.now[0] = ARTIFACT;
+  desk.now = [ARTIFACT, PLAUSIBLE];
   await desk.come("scan 2", "scan 1");
   await showing;
   assert.deepEqual(desk.labels.slice(2, 4), [ARTIFACT, PLAUSIBLE]);
@@ -102,9 +106,9 @@ test("so does one on a scan that is being read anew for another's change", async
 
 test("what was read anew of a sequence that was left meanwhile isn't put into another", async () => {
   const desk = new Desk();
-  desk.now[0] = ARTIFACT;
+  desk.now = [ARTIFACT, PLAUSIBLE];
   const reading = desk.adopting.reread("00", desk.store.state.cloud.scans);
-  desk.now[0] = PLAUSIBLE;
+  desk.now = [PLAUSIBLE, PLAUSIBLE];
   desk.open("01");
   await desk.come("scan 0");
   await reading;
@@ -119,4 +123,33 @@ test("what is refused in a sequence that was left changes nothing in another, an
   await desk.adopting.refused("00", "marked", error);
   assert.deepEqual(desk.labels, [PLAUSIBLE, PLAUSIBLE]);
   assert.equal(desk.store.state.notice?.text, "Not marked in sequence 00 (bob, lasso): changed");
+});
+
+test("a scan that holds other detections by now is shown anew, and nothing stays chosen among the old ones", async () => {
+  const desk = new Desk();
+  desk.store.set({ selection: new Uint8Array([0, 1]), accepting: { all: 1, hidden: 0, goOn: true } });
+  [desk.content, desk.now] = ["now", [PLAUSIBLE, PLAUSIBLE, ARTIFACT]];
+  const reading = desk.adopting.reread("00", desk.store.state.cloud.scans);
+  await desk.come("scan 0");
+  const before = desk.store.state;
+  assert.deepEqual([before.accepting, [...before.selection]], [null, [0, 0]]);
+  assert.equal(before.cloud.scans[0].table.header.content, "then", "a stroke until then is on what is on screen");
+  assert.match(before.notice?.text ?? "", /other detections/);
+  await desk.come("scan 0", "moment", "scan 1", "scan 2");
+  assert.equal(await reading, false);
+  const { cloud, selection } = desk.store.state;
+  assert.deepEqual([cloud.count, selection.length, cloud.positions[6]], [9, 9, 3]);
+  assert.equal(cloud.scans[0].table.header.content, "now");
+});
+
+test("scans of an earlier run are not shown beside those of a later one", async () => {
+  const desk = new Desk();
+  const first = desk.moment.show(HERE);
+  await desk.come("scan 0", "moment", "scan 1", "scan 2");
+  await first;
+  [desk.run, desk.now] = ["second", [ARTIFACT, ARTIFACT]];
+  const again = desk.moment.show(HERE);
+  await desk.come("scan 0", "moment", "scan 1", "scan 2", "scan 0");
+  await again;
+  assert.deepEqual(desk.labels, Array<number>(6).fill(ARTIFACT));
 });

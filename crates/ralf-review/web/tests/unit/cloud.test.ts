@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { buildCloud, columnOf, gather, maskOf, pointOf, pointsByScan, withScans } from "../../src/data/cloud.js";
-import { certaintyOf, everything, hides, isUncertain, visible } from "../../src/data/filter.js";
+import { certaintyOf, everything, hides, isUncertain, type Origin, visible } from "../../src/data/filter.js";
 import { LabelBook } from "../../src/data/labels.js";
 import { withCorrections } from "../../src/data/scan.js";
 import { Sight } from "../../src/data/sight.js";
 import { compose, IDENTITY, inverse } from "../../src/data/transform.js";
+import { sayer } from "../../src/panels/details-panel.js";
 import { made } from "./scans.js";
 
 /** The vehicle turned to the left by `angle` at x, y. */
@@ -86,6 +87,17 @@ test("a correction sets its detection alone, and its end gives the machine's lab
   assert.deepEqual([...cloud.label], [99, 10]);
 });
 
+test("labels of other detections than are on screen are never put onto those", () => {
+  const cloud = buildCloud([made("front", 0, { x: [1, 2], content: "then" })]);
+  const others = [
+    { x: [1, 2], content: "now" },
+    { x: [1, 2, 3], content: "then" },
+    { x: [2, 1], content: "then" },
+  ];
+  for (const other of others) assert.throws(() => withScans(cloud, [made("front", 0, other)]), /found others/);
+  assert.ok(withScans(cloud, [made("front", 0, { x: [1, 2], content: "then", machine: [1, 1] })]).label[0] === 1);
+});
+
 test("what a scan was accepted with is the server's to say", () => {
   const scan = made("front", 0, { x: [1], corrected: [1], reviewed: true });
   const now = { radar: "front", scan: 0, revision: 2, causes: [], corrections: [] };
@@ -115,6 +127,26 @@ test("every filter lets through what it says", () => {
     !hides(everything) &&
       hides({ ...everything, range: [0, 30] }) &&
       hides({ ...everything, hiddenRadars: new Set(["front"]) }),
+  );
+});
+
+test("a label that was accepted isn't the machine's once that says otherwise", () => {
+  const scan = made("front", 0, { x: [1, 2, 3], corrected: [0, 0, 1], reviewed: true });
+  const cloud = buildCloud([{ ...scan, label: new Uint16Array([1, 99, 99]) }]);
+  const by = (origin: Origin): number[] => [
+    ...visible(cloud, { ...everything, origin }, labels, { threshold: 0.5, decided: 1 }),
+  ];
+  assert.deepEqual(
+    [by("any"), by("machine"), by("corrected")],
+    [
+      [1, 1, 1],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+  );
+  assert.deepEqual(
+    [0, 1, 2].map((i) => sayer(cloud, i)),
+    ["accepted by ada", "by machine", "corrected"],
   );
 });
 

@@ -11,6 +11,7 @@ import {
   type Pending,
   pointsIn,
 } from "../../src/history/outbox.js";
+import { made } from "./scans.js";
 
 const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
@@ -194,7 +195,17 @@ test("a stroke in another sequence keeps what it was made on, whatever is applie
 
 test("strokes in another sequence aren't drawn into this one", () => {
   const [here, elsewhere] = [stroke([1], 0), { ...stroke([2], 0), sequence: "01" }];
-  assert.deepEqual(pointsIn("01", [here, elsewhere]), elsewhere.stroke.points);
+  assert.deepEqual(pointsIn("01", [], [here, elsewhere]), elsewhere.stroke.points);
+});
+
+test("a stroke isn't drawn into a scan that holds other detections than it was made on", () => {
+  const { sequence, stroke: drawn } = stroke([1], 0);
+  const base = drawn.base.map((one) => ({ ...one, content: "then" }));
+  const count = (content: string): number => {
+    const scans = base.map(({ radar, scan }) => made(radar, scan, { x: [1, 2], content }));
+    return pointsIn(sequence, scans, [{ sequence, stroke: { ...drawn, base } }]).length;
+  };
+  assert.deepEqual([count("then"), count("now")], [1, 0]);
 });
 
 test("a conflict may be dropped; the strokes behind it go on", async () => {

@@ -12,12 +12,14 @@ export interface Made {
   readonly reviewed?: boolean;
   readonly odom?: readonly number[] | null;
   readonly time?: string;
+  readonly content?: string;
+  readonly run?: string;
 }
 
 export function made(
   radar: string,
   scan: number,
-  { x, w, machine, classFrom, corrected, reviewed, odom = null, time = "0" }: Made,
+  { x, w, machine, classFrom, corrected, reviewed, odom = null, time = "0", content = "", run = "" }: Made,
 ): Scan {
   const zero = new Float32Array(x.length);
   const labels = new Uint16Array(machine ?? x.map(() => 99));
@@ -36,7 +38,8 @@ export function made(
   ]);
   const header = {
     t_ns: time,
-    content: "",
+    run,
+    content,
     stamp: "",
     revision: 0,
     reviewed: reviewed === true ? { author: "ada", at: "" } : null,

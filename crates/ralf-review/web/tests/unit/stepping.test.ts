@@ -3,8 +3,11 @@ import { mock, test } from "node:test";
 import { Adopting } from "../../src/actions/adopting.js";
 import type { Correcting } from "../../src/actions/correcting.js";
 import { Hearing } from "../../src/actions/hearing.js";
+import type { Moment } from "../../src/actions/moment.js";
 import type { Navigation } from "../../src/actions/navigation.js";
 import { Queueing } from "../../src/actions/queueing.js";
+import { Reviewing } from "../../src/actions/reviewing.js";
+import { Relabelling } from "../../src/actions/relabelling.js";
 import { Stepping } from "../../src/actions/stepping.js";
 import type { World } from "../../src/actions/world.js";
 import type { Changes, History, QueueScan, ScanId } from "../../src/api/types.js";
@@ -36,6 +39,7 @@ class Window {
   readonly stepping: Stepping;
   readonly adopting: Adopting;
   readonly correcting: Correcting;
+  readonly navigation = { goTo: () => Promise.resolve() } as unknown as Navigation;
 
   constructor() {
     const api = {
@@ -52,12 +56,11 @@ class Window {
     this.world = { store: this.store, api, loader } as unknown as World;
     this.store.set({ sequence: "00", scans: this.scans, current: HERE });
     this.queueing = new Queueing(this.world);
-    this.adopting = new Adopting(this.world, this.queueing);
+    this.adopting = new Adopting(this.world, this.queueing, {} as unknown as Moment);
     const inTurn = async (_: string, { run }: Omit<Errand, "refuse">): Promise<void> =>
       void this.moved.push(await run([]));
     this.correcting = { inTurn } as unknown as Correcting;
-    const navigation = { goTo: () => Promise.resolve() } as unknown as Navigation;
-    this.stepping = new Stepping(this.world, navigation, this.adopting, this.correcting);
+    this.stepping = new Stepping(this.world, this.navigation, this.adopting, this.correcting);
   }
 }
 
@@ -67,6 +70,20 @@ test("what another window of this browser did can be undone here, though nothing
   await window.stepping.undo();
   assert.deepEqual([window.store.state.history.redo_depth, window.moved[0]?.scans.length], [1, 1]);
   assert.equal(window.store.state.notice, null);
+});
+
+test("what went wrong before is told until a step is made, or somebody goes elsewhere", async () => {
+  const window = new Window();
+  const { store } = window.world;
+  const wrong = { text: "Not marked", kind: "problem" } as const;
+  store.set({ notice: wrong });
+  window.history = ONE;
+  await window.stepping.undo();
+  assert.equal(store.state.notice, null);
+  new Reviewing(window.world, window.navigation, window.adopting, window.correcting, window.queueing);
+  store.set({ notice: wrong });
+  store.set({ current: { radar: "front", scan: 2 } });
+  assert.equal(store.state.notice, null);
 });
 
 test("that nothing is left to undo is said", async () => {
@@ -89,7 +106,7 @@ test("what others change is heard with what can be undone by now, and the order 
   Object.defineProperty(globalThis, "document", { value: page, configurable: true });
   window.history = ONE;
   window.scans = [needs(2, 60), needs(1, 2)];
-  new Hearing(world, window.adopting, window.correcting, window.queueing).listen("00");
+  new Hearing(world, window.adopting, window.correcting, window.queueing, new Relabelling(world)).listen("00");
   for (let tick = 0; tick < 20 && window.store.state.history !== ONE; tick += 1)
     await new Promise((resolve) => setTimeout(resolve, 10));
   assert.equal(window.store.state.history, ONE);

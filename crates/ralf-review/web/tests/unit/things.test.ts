@@ -15,7 +15,7 @@ const scans = [
 const things = new Things({
   rows: 5,
   infos: [],
-  header: { scans, doubtful: [], things: 3, expected_errors: 0 },
+  header: { run: "", scans, doubtful: [], things: 3, expected_errors: 0 },
   columns: new Map([["thing", new Uint32Array([0, 1, 1, 1, 2])]]),
 });
 

@@ -1,0 +1,91 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Adopting } from "../../src/actions/adopting.js";
+import type { Navigation } from "../../src/actions/navigation.js";
+import { Relabelling } from "../../src/actions/relabelling.js";
+import { Thinging } from "../../src/actions/thinging.js";
+import type { World } from "../../src/actions/world.js";
+import type { Table } from "../../src/api/table.js";
+import type { DoubtfulThing, ThingsHeader } from "../../src/api/types.js";
+import { buildCloud } from "../../src/data/cloud.js";
+import { everything } from "../../src/data/filter.js";
+import { deriveAlways } from "../../src/derive.js";
+import { initialState, type State } from "../../src/state.js";
+import { Store } from "../../src/store.js";
+import { recordingOf, sequence } from "./recordings.js";
+import { made } from "./scans.js";
+
+const GROUND = { bit: 1, name: "ground", decided: true };
+
+/** A page on a scan of three detections, of a first run, and a server of whatever run a test says. */
+class Desk {
+  run = "first";
+  readonly store = new Store<State>(initialState({ ...recordingOf([sequence("00")]), flags: [GROUND] }, "ada"));
+  readonly world: World;
+
+  constructor() {
+    const header = (): ThingsHeader => ({
+      run: this.run,
+      scans: [{ radar: "front", scan: 0, rows: 3 }],
+      // Thing 1 is at another place, and of other detections, in each run.
+      doubtful: [doubtful(1, this.run === "first" ? 0 : 100)],
+      things: 2,
+      expected_errors: 1,
+    });
+    const things = (): Table<ThingsHeader> => {
+      const thing = new Uint32Array(this.run === "first" ? [0, 1, 1] : [1, 0, 0]);
+      return { rows: 3, infos: [], header: header(), columns: new Map([["thing", thing]]) };
+    };
+    const api = {
+      recording: () => Promise.resolve({ ...this.store.state.recording, threshold: this.run === "first" ? 0.5 : 0.7 }),
+      things: () => Promise.resolve(things()),
+      doubtful: () => Promise.resolve(header()),
+    };
+    this.world = { store: this.store, api } as unknown as World;
+    this.store.set({ sequence: "00" });
+    this.show();
+  }
+
+  /** The scan as it is now. */
+  show(): void {
+    const scan = made("front", 0, { x: [1, 2, 3], w: [0.5, 0.9, 0.7], run: this.run });
+    this.store.set({ cloud: buildCloud([scan]) });
+  }
+}
+
+function doubtful(thing: number, x: number): DoubtfulThing {
+  const counts = { detections: 2, scans: 1, plausible: 1, answered: 0, expected_errors: 1 };
+  return { thing, place: [x, 0, 0], radius: 1, ...counts, radar: "front", scan: 0, point: 0 };
+}
+
+test("once the scan on screen is of another run, so is the threshold, and what is uncertain by it", async () => {
+  const desk = new Desk();
+  deriveAlways(desk.store);
+  new Relabelling(desk.world);
+  desk.store.set({ filter: { ...everything, uncertain: true } });
+  assert.deepEqual([...desk.store.state.shown], [1, 0, 0]);
+  desk.run = "second";
+  desk.show();
+  await new Promise((resolve) => setTimeout(resolve));
+  assert.equal(desk.store.state.recording.threshold, 0.7);
+  assert.deepEqual([...desk.store.state.shown], [0, 0, 1]);
+});
+
+test("after somebody labelled again the next thing is one of the new labels, and so is what is selected", async () => {
+  const desk = new Desk();
+  const adopting = { readAllAnew: () => Promise.resolve(desk.show()) } as unknown as Adopting;
+  const navigation = { wholeSequence: () => Promise.resolve() } as unknown as Navigation;
+  const thinging = new Thinging(desk.world, navigation, adopting);
+  const next = async (): Promise<readonly number[]> => {
+    await thinging.next();
+    return [...desk.store.state.selection];
+  };
+  assert.deepEqual(await next(), [0, 1, 1]);
+  desk.run = "second";
+  assert.deepEqual(await next(), [1, 0, 0]);
+  desk.run = "third";
+  const chosen = new Uint8Array([1, 0, 0]);
+  desk.show();
+  desk.store.set({ shown: new Uint8Array([1, 1, 1]) });
+  assert.equal(thinging.whole(chosen), chosen, "what belongs together in these labels isn't known yet");
+});
