@@ -196,9 +196,13 @@ export async function exported(out) {
 }
 
 /** A scan as the server has it: {header, x, y, label, ...}. */
-export async function scanOf(server, { radar, scan }) {
-  const sequence = await sequenceOf(server);
-  const buffer = await (await ask(server, `sequences/${sequence}/radars/${radar}/scans/${scan}`)).arrayBuffer();
+export function scanOf(server, { radar, scan }) {
+  return tableOf(server, `radars/${radar}/scans/${scan}`);
+}
+
+/** A table of the sequence as the server has it: {header, and each column by its name}. */
+export async function tableOf(server, what) {
+  const buffer = await (await ask(server, `sequences/${await sequenceOf(server)}/${what}`)).arrayBuffer();
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const columns = header.columns.map(({ name, type, offset }) => [
