@@ -64,6 +64,27 @@ fn frames_have_the_times_of_their_boxes() {
 }
 
 #[test]
+fn poses_go_on_for_a_while_beyond_the_frames() {
+    let (_folder, drive) = drive();
+    let motion = &drive.sequence().motion;
+    let (first, last) = (T0, frame_time(3));
+    for (t_ns, most) in [
+        (first - 300_000_000, 0.25),
+        (first - 130_000_000, 0.03),
+        (last + 33_000_000, 0.01),
+        (last + 300_000_000, 0.25),
+    ] {
+        let (found, truth) = (motion.odom_from_vehicle(t_ns), start_from_vehicle(t_ns));
+        // Straight on, as from pose to pose: of 6 m in 300 ms the bend takes 0.2 m aside.
+        let off = (found.translation.vector - truth.translation.vector).norm();
+        let turned = found.rotation.angle_to(&truth.rotation);
+        assert!(off < most && turned < 1e-6, "{off} m and {turned} rad at {t_ns} ns");
+    }
+    let far = motion.odom_from_vehicle(last + 1_000_000_000);
+    assert_eq!(far, motion.odom_from_vehicle(last + 300_000_000), "held");
+}
+
+#[test]
 fn targets_are_kept_as_they_are_and_decibels_are_derived() {
     let (_folder, drive) = drive();
     let front = &drive.sequence().rig.radars[1];
@@ -103,7 +124,8 @@ fn assert_posts(scan: &LidarScan, vehicle_from_lidar: &Transform, index: usize) 
 fn points_go_to_the_frames_time_and_keep_their_own() {
     let (_folder, drive) = drive();
     let mounting = drive.sequence().rig.lidars[0].vehicle_from_lidar;
-    for index in [1, 2] {
+    // The first and the last, too: their points were measured before the first pose and after the last.
+    for index in 0..FRAMES.len() {
         let scan = drive.lidar_scan(0, index).unwrap();
         assert_posts(&scan, &mounting, index);
         assert_eq!((scan.points[5], scan.points.len()), ([0.0; 3], 6));
