@@ -4,7 +4,7 @@
 //!   clip's folder (`radar/CLIP.NAME.parquet`), or what holds folders of clips. A clip is a sequence.
 //! - A scan is the rows of one `scan_index`, wherever they lie, at their `timestamp`, us. Columns are as published:
 //!   `distance` is `range`, `radial_velocity` is `doppler`, the raw range rate; `exist_probb`, what the sensor itself
-//!   believes, is kept. Rows without a distance keep their place, as all do.
+//!   believes, is kept. No row is dropped; one whose distance isn't above 0 has no place.
 //! - Poses are those of `egomotion.offline`, else of `egomotion`: the vehicle's frame is RALF's.
 //! - The LiDAR is compressed with Draco, of which there is no decoder in Rust that could be relied on: it is left out.
 //!   So are the cameras: films behind f-theta lenses.

@@ -40,9 +40,20 @@ pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
     let of_rows = times.iter().enumerate().map(|(row, time)| nanoseconds(file, row, *time));
     let scans =
         of_one_time(file, scans(indices.into_iter(), &of_rows.collect::<Result<Vec<_>, _>>()?), &times)?;
-    let columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<Vec<_>, _>>()?;
+    let mut columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<Vec<_>, _>>()?;
     let has_elevation = columns[1].iter().any(|elevation| elevation.is_finite() && *elevation != 0.0);
+    without_place(&mut columns);
     Ok(Scans { columns, scans, has_elevation })
+}
+
+/// Takes the coordinates from rows without a distance: at 0 they would lie in the radar itself, below it behind it.
+fn without_place(columns: &mut [Vec<f32>]) {
+    let [azimuth, elevation, distance, ..] = columns else { return };
+    for ((azimuth, elevation), distance) in azimuth.iter_mut().zip(elevation).zip(distance) {
+        if *distance <= 0.0 {
+            [*azimuth, *elevation, *distance] = [f32::NAN; 3];
+        }
+    }
 }
 
 /// The scans, of which each has rows of one time.

@@ -8,7 +8,7 @@
 //!   digits before the point.
 //! - Speed and yaw rate are the cab's, which the radars move with (`ego_motion_cabin`), else the chassis'.
 //! - The radars' `vrel_x`, `vrel_y` and `vrel_z` are the relative radial velocity as a vector. One column is derived:
-//!   `doppler`, its part along the ray. No detection is dropped.
+//!   `doppler`, its part along the ray. No detection is dropped; one at (0, 0, 0) has no place.
 //! - LiDAR points carry the time at which each was measured. They are moved to the scan's time with the poses.
 //! - There is no log, and no map. A trailer (`vehicle.ego_trailer`) is part of what the sensors see.
 

@@ -42,6 +42,17 @@ pub(super) fn scene(
     Ok(FileSequence { sequence, files, further: tables.to_vec(), warnings, format })
 }
 
+/// Takes the coordinates from rows at (0, 0, 0): the radar itself is where nothing was measured, and what seems to
+/// stand there would go along with the vehicle.
+fn without_place(columns: &mut [Vec<f32>]) {
+    let [x, y, z, ..] = columns else { return };
+    for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
+        if [*x, *y, *z] == [0.0; 3] {
+            [*x, *y, *z] = [f32::NAN; 3];
+        }
+    }
+}
+
 impl FileFormat for TruckScenes {
     fn is_rolling(&self) -> bool {
         true
@@ -52,6 +63,7 @@ impl FileFormat for TruckScenes {
         let mut columns = PCD_FIELDS.iter().map(|name| pcd.column(name)).collect::<Result<Vec<_>, _>>()?;
         let [x, y, z, vx, vy, vz] = [0, 1, 2, 3, 4, 5].map(|column: usize| columns[column].as_slice());
         let doppler = radial_3d([x, y, z], [vx, vy, vz]);
+        without_place(&mut columns);
         columns.push(doppler);
         Ok(columns)
     }

@@ -63,10 +63,25 @@ fn rows_of_a_scan_index_are_a_scan_and_none_is_dropped() {
         ("doppler_ambiguity", 62.5),
     ];
     assert_eq!(row, expected);
+    // The last row of this scan has a distance of 0: whatever its angles say, it has no place.
+    let placed = scan.positions.iter().map(|place| place.coords.iter().all(|axis| axis.is_finite()));
+    assert_eq!(placed.collect::<Vec<_>>(), [true, true, false]);
     assert_eq!(
         rig.radars.iter().map(|radar| radar.elevation).collect::<Vec<_>>(),
         [Elevation::Measured, Elevation::None]
     );
+}
+
+#[test]
+fn a_distance_that_is_not_above_zero_is_no_place() {
+    let (folder, _) = unzipped();
+    let mut rows = radar(true);
+    rows[10].1 = Values::Float(vec![20.0, -1.5, f32::NAN, 21.0, 0.0, 19.5]);
+    write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
+    let recording = open(folder.path()).unwrap();
+    let scans = (0..3).map(|scan| only(&recording).radar_scan(0, scan).unwrap());
+    let placed = scans.flat_map(|scan| scan.positions).map(|place| place.coords.norm().is_finite());
+    assert_eq!(placed.collect::<Vec<_>>(), [true, false, false, true, false, true]);
 }
 
 #[test]

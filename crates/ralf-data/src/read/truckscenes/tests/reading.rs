@@ -125,6 +125,8 @@ fn what_has_no_place_stays() {
     let scene = set.open().unwrap();
     let scan = scene.radar_scan(0, 0).unwrap();
     assert!(scan.columns[7][0].is_nan() && scan.columns[7][1].is_nan());
+    let placed = scan.positions.iter().map(|place| place.coords.iter().all(|axis| axis.is_finite()));
+    assert_eq!(placed.collect::<Vec<_>>(), [false, false, true]);
     assert_eq!((scan.columns[7][2], &scan.columns[6]), (10.0, &vec![1.0, 2.0, 3.0]));
     assert!(scene.radar_scan(1, 0).unwrap().is_empty());
 }
