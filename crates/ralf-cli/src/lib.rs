@@ -18,11 +18,11 @@ mod spent;
 mod text;
 
 use clap::Parser;
-use outcome::{Outcome, UsageError};
+use outcome::{Outcome, UsageError, at_the_end};
 use std::ffi::OsString;
 
 /// Runs what was typed, the program's name first. Returns the exit status: 0 done, 1 failed, 2 wrong usage, 3 done, but
-/// some scans are left out (each named).
+/// some sequences or scans are left out (each named).
 pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match cli::Cli::try_parse_from(typed) {
         Ok(cli) => cli,
@@ -31,7 +31,7 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };
-    match cli.run() {
+    match cli.run().map(at_the_end) {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::Partial) => 3,
         // Whoever reads our output has enough of it, as in `ralf inspect x | head`.

@@ -1,11 +1,29 @@
 //! How a command ends.
 
+use crate::progress::say;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether a sequence of a recording was left out, for it can't be read. Every command opens recordings, and none can
+/// say of such a one that all is done.
+static LEFT_OUT: AtomicBool = AtomicBool::new(false);
+
+/// Names a sequence that can't be read and was left out, with the reason.
+pub(crate) fn say_left_out(named: &str) {
+    say(&format!("left out: {named}"));
+    LEFT_OUT.store(true, Ordering::Relaxed);
+}
+
+/// How a command ended, once it is known whether it left a sequence out.
+pub(crate) fn at_the_end(outcome: Outcome) -> Outcome {
+    outcome.and(Outcome::done_if(!LEFT_OUT.swap(false, Ordering::Relaxed)))
+}
+
 /// How a command ended that did not fail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// All of it.
     Done,
-    /// Some scans, or corrections of some, are left out; each was named.
+    /// Some sequences, scans, or corrections of some, are left out; each was named.
     Partial,
 }
 

@@ -106,7 +106,7 @@ impl Job {
     pub fn open(&self) -> Result<Recording, DataError> {
         let (format, topics) = (self.format.as_deref(), &self.settings.topics);
         let recording = open_selected(&self.recording, format, topics, &self.sequences)?;
-        let recording = self.settings.correct(recording)?;
+        let recording = self.settings.correct(recording)?.whole()?;
         with_stored(recording, self.depth.as_deref(), self.segmentation.as_deref())
     }
 

@@ -56,8 +56,9 @@ impl Settings {
     }
 
     /// A recording as the tables `sensors`, `corrections` and `motion` have it. Where it knows no motion, that is taken
-    /// from the radars' range rates. Refused: names that no sensor has, files that hold no poses, one such file for
-    /// several sequences, and sequences whose motion nobody knows.
+    /// from the radars' range rates, else from a LiDAR's scans. Refused: names that no sensor has, files that hold no
+    /// poses, and one such file for several sequences. A sequence whose motion nobody knows is refused if it was named,
+    /// or if there is no other; else it is [left out](Recording::incomplete).
     pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
         self.correct_labelled(recording, |_| true)
     }

@@ -1,6 +1,8 @@
 //! What the tests of several readers share.
 
-use crate::read::{Recording, SequenceReader};
+use crate::Settings;
+use crate::read::ros::Topics;
+use crate::read::{Recording, SequenceReader, open_selected};
 use std::path::{Path, PathBuf};
 
 /// A folder of the real recordings, where the environment names them; else the test says that it is skipped.
@@ -20,4 +22,32 @@ pub(crate) fn write(file: &Path, bytes: &[u8]) {
 /// The sequence of a recording that has one.
 pub(crate) fn only(recording: &Recording) -> &dyn SequenceReader {
     recording.sequences[0].as_ref()
+}
+
+/// A recording of which one sequence is damaged: it is left out with a reason that holds these words, costs one that is
+/// named nothing, and is refused where it is named itself, or alone.
+pub(crate) fn check_left_out(path: &Path, [good, bad]: [&str; 2], words: &str) {
+    let open = |names: &[&str]| {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let opened = open_selected(path, None, &Topics::new(), &names)?;
+        Settings::default().correct(opened)
+    };
+    let all = open(&[]).unwrap();
+    let names = |recording: &Recording| -> Vec<String> {
+        recording.sequences.iter().map(|reader| reader.sequence().name.clone()).collect()
+    };
+    assert_eq!(names(&all), [good]);
+    let [lost] = &all.incomplete[..] else { panic!("{:?}", all.incomplete) };
+    let told = lost.lost.to_string();
+    assert!(lost.name == bad && told.contains(words), "{lost:?}");
+    let chosen = open(&[good]).unwrap();
+    assert_eq!((names(&chosen), chosen.incomplete.len()), (vec![good.to_owned()], 0));
+    for refused in [open(&[bad]), open(&[good, bad]), all.whole()] {
+        assert_eq!(refused.unwrap_err().to_string(), told);
+    }
+    let unknown = open(&["nowhere"]).unwrap_err().to_string();
+    assert!(
+        unknown.contains(&format!("no sequence `nowhere` in the recording, which holds {good}")),
+        "{unknown}"
+    );
 }

@@ -2,13 +2,14 @@
 
 use super::changed::ChangedArgs;
 use super::settings;
+use crate::outcome::say_left_out;
 use crate::progress::say;
-use crate::text::{counted, grouped, listed};
+use crate::text::{counted, grouped, in_a_line, listed};
 use anyhow::Context;
 use clap::Args;
-use ralf_data::read::Incomplete;
 use ralf_data::read::inspection::held_motion;
 use ralf_data::read::ros::Topics;
+use ralf_data::read::{Incomplete, Lost};
 use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader, Settings, open_selected};
 use std::collections::BTreeMap;
@@ -81,8 +82,7 @@ impl DatasetArgs {
 /// So many sequences are named that are left out.
 const SHOWN: usize = 5;
 
-/// A recording without the sequences whose radars' files are all missing, or of which nothing can be read. Each reason
-/// is said in one line: large data sets are published part by part, with tables of all of them.
+/// A recording without the sequences whose radars' files are all missing.
 fn copied(recording: Recording) -> Recording {
     let is_missing = |reader: &dyn SequenceReader| {
         reader.sequence().times.radars.iter().all(Vec::is_empty) && !reader.warnings().is_empty()
@@ -90,14 +90,23 @@ fn copied(recording: Recording) -> Recording {
     let (missing, sequences): (Vec<_>, Vec<_>) =
         recording.sequences.into_iter().partition(|reader| is_missing(reader.as_ref()));
     let (missing, sequences) = if sequences.is_empty() { (sequences, missing) } else { (missing, sequences) };
-    let all = missing.len() + sequences.len() + recording.incomplete.len();
+    let mut incomplete = recording.incomplete;
+    incomplete.extend(
+        missing.iter().map(|reader| Incomplete { name: reader.sequence().name.clone(), lost: Lost::Radars }),
+    );
+    Recording { sequences, incomplete, ..recording }
+}
+
+/// Says which sequences were left out and why: what is missing in one line for each reason, for large data sets are
+/// published part by part, with tables of all of them; what was refused one by one.
+fn tell_left_out(recording: &Recording) {
+    let all = recording.sequences.len() + recording.incomplete.len();
     let mut reasons = BTreeMap::<String, Vec<&str>>::new();
-    for reader in &missing {
-        let reason = "no file of their radars is there".to_owned();
-        reasons.entry(reason).or_default().push(&reader.sequence().name);
-    }
-    for Incomplete { name, missing } in &recording.incomplete {
-        reasons.entry(format!("{missing} is missing")).or_default().push(name);
+    for Incomplete { name, lost } in &recording.incomplete {
+        match lost {
+            Lost::Refused(error) => say_left_out(&format!("{name}: {}", in_a_line(&error.to_string()))),
+            _ => reasons.entry(lost.to_string()).or_default().push(name),
+        }
     }
     for (reason, names) in reasons {
         say(&format!(
@@ -107,11 +116,11 @@ fn copied(recording: Recording) -> Recording {
             listed(&names, SHOWN)
         ));
     }
-    Recording { sequences, ..recording }
 }
 
-/// A recording, of which its readers' warnings are said.
+/// A recording, of which is said what was left out and what its readers warn of.
 fn told(recording: Recording) -> Recording {
+    tell_left_out(&recording);
     for reader in &recording.sequences {
         for warning in reader.warnings() {
             say(&format!("warning: {}: {warning}", reader.sequence().name));

@@ -68,3 +68,20 @@ fn a_sequence_that_lost_what_tells_its_scans_is_named_as_left_out() {
         .exits(1)
         .ends_with_error(["sequence sequence_2: expected `radar_data.h5`, found none"]);
 }
+
+#[test]
+fn a_damaged_sequence_is_named_and_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, out] = ["scenes", "out"].map(|name| folder.path().join(name));
+    radar_scenes::write_dataset(&data);
+    let damaged = data.join("data/sequence_2");
+    radar_scenes::write_sequence(&damaged, &radar_scenes::sequence(false));
+    fs::write(damaged.join("scenes.json"), "{").unwrap();
+    let [data, out] = [&data, &out].map(|path| path.to_str().unwrap());
+    for command in [["inspect", data].to_vec(), ["label", data, "-o", out].to_vec()] {
+        ralf(command).exits(3).says(["left out: sequence_2: ", "scenes.json: line 1"]);
+    }
+    let chosen = |name| ralf(["inspect", data, "--sequence", name]);
+    assert!(!chosen("sequence_1").exits(0).stderr.contains("left out"));
+    chosen("sequence_2").exits(1).ends_with_error(["scenes.json: line 1"]);
+}

@@ -16,6 +16,7 @@ pub(crate) mod models;
 mod nuscenes;
 mod nvidia;
 pub(crate) mod open;
+mod opened;
 pub(crate) mod outside;
 mod point_times;
 mod radar_ghost;
@@ -33,7 +34,7 @@ mod zod;
 
 pub(crate) use corrected::corrected;
 pub use corrections::{Altered, MotionSettings, MotionSource, SensorCorrection};
-pub use incomplete::Incomplete;
+pub use incomplete::{Incomplete, Lost};
 pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};
 pub use open::{formats, open, open_selected, open_with};

@@ -32,7 +32,7 @@ const FORMATS: [Format; 10] = [
         holds: "the lists `trainval-sequences-*.json` or `trainval-drives-*.json`",
         knows_truth: false,
         recognises: zod::recognises,
-        open: |path, _, _| zod::open(path),
+        open: |path, _, names| zod::open(path, names),
     },
     Format {
         name: layout::NAME,
@@ -67,28 +67,28 @@ const FORMATS: [Format; 10] = [
         holds: "a sequence's `sensor/calibration/calibration.json` and `sensor/radar`, or folders of such sequences",
         knows_truth: false,
         recognises: aimotive::recognises,
-        open: |path, _, _| aimotive::open(path),
+        open: |path, _, names| aimotive::open(path, names),
     },
     Format {
         name: radar_ghost::NAME,
         holds: "HDF5 files `scenario-*.h5`, or the folders `original` or `virtual` with such files",
         knows_truth: true,
         recognises: radar_ghost::recognises,
-        open: |path, _, _| radar_ghost::open(path),
+        open: |path, _, names| radar_ghost::open(path, names),
     },
     Format {
         name: radar_scenes::NAME,
         holds: "folders with `radar_data.h5` and `scenes.json`",
         knows_truth: true,
         recognises: radar_scenes::recognises,
-        open: |path, _, _| radar_scenes::open(path),
+        open: |path, _, names| radar_scenes::open(path, names),
     },
     Format {
         name: nvidia::NAME,
         holds: "radars' tables `radar/NAME/CLIP.NAME.parquet`, or folders of clips with such",
         knows_truth: false,
         recognises: nvidia::recognises,
-        open: |path, _, _| nvidia::open(path),
+        open: |path, _, names| nvidia::open(path, names),
     },
     Format {
         name: ros::NAME,
@@ -124,7 +124,8 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
     open_selected(path, format, topics, &[])
 }
 
-/// Opens the sequences of these names of a recording, all where none is named. In the own layout others may be damaged.
+/// Opens the sequences of these names of a recording, all where none is named. Others may be damaged where each
+/// sequence has files of its own: not in nuScenes and MAN TruckScenes, whose tables tell of all, View-of-Delft and ROS.
 ///
 /// # Errors
 /// Those of [`open`]; a name that no sequence has.

@@ -3,7 +3,7 @@
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::corrections::{Altered, MotionSource};
-use crate::read::incomplete::Incomplete;
+use crate::read::incomplete::{Incomplete, Lost, whole};
 use ralf::label::Cause;
 use ralf::sensors::{LidarScan, Sequence, Source, SourceError};
 use std::any::Any;
@@ -187,29 +187,49 @@ pub struct Recording {
     pub sequences: Vec<Box<dyn SequenceReader>>,
     /// Those of which nothing can be read, in the order of their names.
     pub incomplete: Vec<Incomplete>,
+    /// Whether somebody named its sequences: what can't be read of one of them is then an error.
+    pub is_selected: bool,
 }
 
 impl Recording {
     /// A recording all of whose sequences can be read.
     pub fn new(path: &Path, format: &'static str, sequences: Vec<Box<dyn SequenceReader>>) -> Self {
-        Self { path: path.to_owned(), format, sequences, incomplete: Vec::new() }
+        Self { path: path.to_owned(), format, sequences, incomplete: Vec::new(), is_selected: false }
+    }
+
+    /// The recording, or why one of its sequences was refused: for whoever names nothing that is left out.
+    ///
+    /// # Errors
+    /// The first such reason. Parts that are missing are none.
+    pub fn whole(self) -> Result<Self, DataError> {
+        Ok(Self { incomplete: whole(self.incomplete)?, ..self })
     }
 
     /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.
     pub fn select(mut self, names: &[String]) -> Result<Self, DataError> {
         let holds = |name: &String| self.sequences.iter().any(|sequence| sequence.sequence().name == *name);
         if let Some(unknown) = names.iter().find(|name| !holds(name)) {
-            if let Some(Incomplete { missing, .. }) =
-                self.incomplete.iter().find(|lost| lost.name == *unknown)
-            {
-                let place = format!("sequence {unknown}");
-                return Err(DataError::content(&self.path, place, format!("`{missing}`"), "none"));
+            if let Some(found) = self.incomplete.iter().position(|lost| lost.name == *unknown) {
+                return Err(match self.incomplete.swap_remove(found).lost {
+                    Lost::Refused(error) => error,
+                    Lost::Part(missing) => self.lacking(unknown, &format!("`{missing}`")),
+                    Lost::Radars => self.lacking(unknown, "files of its radars"),
+                });
             }
             let known: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
             return Err(DataError::UnknownSequence { name: unknown.clone(), known: known.join(", ") });
         }
         self.sequences.retain(|sequence| names.is_empty() || names.contains(&sequence.sequence().name));
+        if !names.is_empty() {
+            // Nobody asked for the others.
+            self.incomplete.clear();
+            self.is_selected = true;
+        }
         Ok(self)
+    }
+
+    fn lacking(&self, sequence: &str, expected: &str) -> DataError {
+        DataError::content(&self.path, format!("sequence {sequence}"), expected, "none")
     }
 }
 

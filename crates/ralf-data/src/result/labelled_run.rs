@@ -62,6 +62,7 @@ pub fn labelled_recording(out: &Path, dataset: &Path) -> Result<Option<(Labelled
     let topics = &run.settings().topics;
     // What was never labelled may be damaged, as it may be where sequences are labelled by name.
     let recording = open_with(dataset, format, topics)
+        .and_then(Recording::whole)
         .or_else(|error| open_selected(dataset, format, topics, &names).map_err(|_| error))?;
     Ok(Some((run, recording)))
 }

@@ -223,7 +223,8 @@ impl LearnArgs {
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Done;
         for dataset in &self.datasets {
-            let recording = settings.correct(ralf_data::open_with(dataset, None, &settings.topics)?)?;
+            let recording = ralf_data::open_with(dataset, None, &settings.topics)?;
+            let recording = settings.correct(recording)?.whole()?;
             let (truth, all_applied) = self.correct.truth(&recording)?;
             let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
             let name = name.file_name().map(|name| name.to_string_lossy().into_owned());

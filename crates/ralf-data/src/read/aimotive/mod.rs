@@ -23,8 +23,9 @@ mod source;
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::incomplete::{none_whole, parted};
-use crate::read::{Recording, SequenceReader};
+use crate::read::Recording;
+use crate::read::incomplete::{named, none_whole, parted};
+use crate::read::opened::Opened;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
@@ -36,10 +37,11 @@ const RADARS: &str = "sensor/radar";
 /// The folders in a sequence's folder.
 const PARTS: [&str; 2] = ["sensor", "dynamic"];
 
-/// Opens a sequence, the sequences of an environment, or all of them.
+/// Opens a sequence, the sequences of an environment, or all of them; where names are given, those.
 ///
-/// Errors: no sequence, two of one name, damaged or contradictory metadata, frames whose time nobody tells.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// Errors: no sequence, two of one name. Of one that is named, or if all are such: damaged or contradictory metadata,
+/// frames whose time nobody tells.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let mut folders = sequence_folders(path)?;
     folders.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
     if let Some(pair) = folders.windows(2).find(|pair| pair[0].file_name() == pair[1].file_name()) {
@@ -47,14 +49,12 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
         return Err(DataError::content(&pair[0], "name", "a name that no other sequence has", found));
     }
     let (folders, incomplete) = parted(folders, missing);
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(folders.len());
-    for folder in &folders {
-        sequences.push(Box::new(source::drive(folder)?));
-    }
-    if sequences.is_empty() {
+    if folders.is_empty() {
         return Err(none_whole(path, format!("sequences with `{CALIBRATION}` and `{RADARS}`"), &incomplete));
     }
-    Ok(Recording { incomplete, ..Recording::new(path, NAME, sequences) })
+    let folders = folders.into_iter().map(|folder| (named(&folder), folder)).collect();
+    let opened = Opened::of(folders, names, |_, folder| source::drive(&folder))?;
+    Ok(opened.recording(path, NAME, incomplete))
 }
 
 /// Whether a folder looks like aiMotive.

@@ -9,6 +9,7 @@ mod trajectory;
 
 use crate::error::DataError;
 use crate::read::corrections::{Altered, MotionSettings, MotionSource, SensorCorrection};
+use crate::read::opened::Opened;
 use crate::read::recording::{Recording, SequenceReader};
 use nalgebra::Translation3;
 use ralf::config::Config;
@@ -24,8 +25,8 @@ use std::path::Path;
 pub(crate) type Corrections = BTreeMap<String, SensorCorrection>;
 
 /// The recording with what the settings say of the sequences concerned; of the method's settings those of the sensors.
-/// Refused: a name that no sensor has, a trajectory that is none or of more than one sequence, and a sequence whose
-/// motion nobody knows.
+/// Refused: a name that no sensor has, and a trajectory that is none or of more than one sequence. A sequence that was
+/// not asked for, and whose motion neither a file nor the sensors tell, is left out; if none is left, it is refused.
 pub(crate) fn corrected(
     recording: Recording,
     method: &Config,
@@ -33,22 +34,33 @@ pub(crate) fn corrected(
     motion: &MotionSettings,
     is_concerned: &dyn Fn(&str) -> bool,
 ) -> Result<Recording, DataError> {
-    let Recording { path, format, sequences, incomplete } = recording;
+    let Recording { path, format, sequences, incomplete, is_selected } = recording;
     let count = sequences.iter().filter(|reader| is_concerned(&reader.sequence().name)).count();
-    let mut read = Vec::with_capacity(sequences.len());
+    let mut read = Opened { sequences: Vec::with_capacity(sequences.len()), incomplete };
     let as_recorded =
         method.sensors.is_empty() && corrections.is_empty() && *motion == MotionSettings::default();
     for inner in sequences {
         let Sequence { name, motion: known, .. } = inner.sequence();
         if !is_concerned(name) || as_recorded && known.is_known() {
-            read.push(inner);
+            read.sequences.push(inner);
             continue;
         }
+        let (name, may_be_lost) = (name.clone(), !is_selected && is_seen(motion, known));
         let sensors = with_sensors(inner, method, corrections, &path)?;
         let own = motion_of(motion, &sensors.sequence().name, count)?;
-        read.push(Box::new(with_motion(sensors, &own, &path)?));
+        match with_motion(sensors, &own, &path) {
+            Ok(reader) => read.sequences.push(Box::new(reader)),
+            Err(error) if may_be_lost => read.lose(name, error),
+            Err(error) => return Err(error),
+        }
     }
-    Ok(Recording { path, format, sequences: read, incomplete })
+    let Opened { sequences, incomplete } = read.or_first_error()?;
+    Ok(Recording { path, format, sequences, incomplete, is_selected })
+}
+
+/// Whether nothing but the sensors tells a motion: neither the recording nor what the settings name.
+fn is_seen(wanted: &MotionSettings, known: &EgoMotion) -> bool {
+    wanted.trajectory.is_none() && wanted.source == MotionSource::Recorded && !known.is_known()
 }
 
 /// What the settings say of the motion of one of so many sequences: of a folder of trajectories its own.
@@ -104,8 +116,8 @@ fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> R
         MotionSource::Radar => from_doppler(&reader).map(|motion| (motion, MotionSource::Radar)),
         MotionSource::Lidar => from_lidar(&reader).map(|motion| (motion, MotionSource::Lidar)),
         MotionSource::Trajectory => Err("motion.source = \"trajectory\" without a file of poses".into()),
-        _ if is_known => Ok((reader.sequence().motion.clone(), MotionSource::Recorded)),
-        _ => seen(&reader),
+        MotionSource::Recorded if is_known => Ok((reader.sequence().motion.clone(), MotionSource::Recorded)),
+        MotionSource::Recorded => seen(&reader),
     };
     let (motion, source) = found.map_err(|error| {
         let reason = format!("the vehicle's motion: {error}; a trajectory would do as well (--trajectory)");

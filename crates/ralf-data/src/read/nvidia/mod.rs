@@ -15,8 +15,9 @@ mod source;
 mod tables;
 
 use crate::error::DataError;
+use crate::read::Recording;
 use crate::read::last_read::LastRead;
-use crate::read::{Recording, SequenceReader};
+use crate::read::opened::Opened;
 use source::{Drive, Shared};
 use std::path::Path;
 use std::sync::Arc;
@@ -27,10 +28,10 @@ pub(crate) const NAME: &str = "nvidia";
 /// The most radars that a clip has.
 const MOST_RADARS: usize = 19;
 
-/// Opens a clip or several.
+/// Opens a clip or several; where names are given, those.
 ///
-/// Errors: no clip, zipped files, clips without motion or mountings, damaged files.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// Errors: no clip, zipped files. Of a clip that is named, or if all are such: no mountings, damaged files.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let clips = layout::clips(path)?;
     if clips.is_empty() {
         let (expected, found) =
@@ -40,11 +41,9 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     let extrinsics = calibration::Extrinsics::default();
     let shared =
         Shared { scans: Arc::new(LastRead::new(tables::table, MOST_RADARS)), extrinsics: &extrinsics };
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(clips.len());
-    for (name, clip) in clips {
-        sequences.push(Box::new(Drive::new(&name, &clip, &shared)?));
-    }
-    Ok(Recording::new(path, NAME, sequences))
+    let clips = clips.into_iter().collect();
+    let opened = Opened::of(clips, names, |name, clip| Drive::new(name, &clip, &shared))?;
+    Ok(opened.recording(path, NAME, Vec::new()))
 }
 
 /// Whether a folder looks like clips of this data set, zipped or not.

@@ -22,7 +22,8 @@ mod tables;
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::Recording;
+use crate::read::opened::Opened;
 use source::{Standing, Tables};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -30,25 +31,23 @@ use std::sync::Arc;
 /// The format's name.
 pub(crate) const NAME: &str = "radar-ghost";
 
-/// Opens a sequence, a split, or all of them.
+/// Opens a sequence, a split, or all of them; where names are given, those.
 ///
-/// Errors: no sequence, two of one name, a damaged file, one of version 1.0.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// Errors: no sequence, two of one name. Of one that is named, or if all are such: a damaged file, one of version 1.0.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let mut found = sequence_files(path)?;
     found.sort_by(|a, b| a.file_stem().cmp(&b.file_stem()));
     if let Some(pair) = found.windows(2).find(|pair| pair[0].file_stem() == pair[1].file_stem()) {
         let other = pair[1].display().to_string();
         return Err(DataError::content(&pair[0], "name", "a name that no other sequence has", other));
     }
-    let tables = Arc::new(Tables::new());
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(found.len());
-    for file in found {
-        sequences.push(Box::new(Standing::new(file, tables.clone())?));
-    }
-    if sequences.is_empty() {
+    if found.is_empty() {
         return Err(DataError::content(path, "files", "sequences, `scenario-*.h5`", "none"));
     }
-    Ok(Recording::new(path, NAME, sequences))
+    let tables = Arc::new(Tables::new());
+    let found = found.into_iter().map(|file| (source::name(&file), file)).collect();
+    let opened = Opened::of(found, names, |_, file| Standing::new(file, tables.clone()))?;
+    Ok(opened.recording(path, NAME, Vec::new()))
 }
 
 /// Whether a file is named like a sequence, or a folder holds such files.

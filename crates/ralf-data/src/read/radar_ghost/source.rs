@@ -15,6 +15,7 @@ use ralf::sensors::{
 };
 use ralf::space::{EgoMotion, OdometrySample, Point, Transform};
 use std::f64::consts::FRAC_PI_6;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -94,15 +95,23 @@ fn sequence(file: &Path, radars: &[(usize, Vec<Scan>)], lidar: &[Scan]) -> Resul
         return Err(DataError::content(file, "radar, lidar", "rows", "none"));
     };
     let standing = OdometrySample { t_ns: begin, velocity: 0.0, yaw_rate: 0.0 };
-    let text = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     Ok(Sequence {
-        name: text(file.file_stem()),
+        name: name(file),
         title: format!("Radar Ghost, {}", text(file.parent().and_then(Path::file_name))),
         rig,
         times,
         motion: EgoMotion::new(vec![standing], Vec::new()).unwrap_or_else(EgoMotion::unknown),
         depth_output: DepthOutput::default(),
     })
+}
+
+/// A sequence is named after its file.
+pub(super) fn name(file: &Path) -> String {
+    text(file.file_stem())
+}
+
+fn text(part: Option<&OsStr>) -> String {
+    part.unwrap_or_default().to_string_lossy().into_owned()
 }
 
 fn lidar_mounting() -> Transform {

@@ -18,9 +18,10 @@ mod tables;
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::incomplete::{none_whole, parted};
+use crate::read::Recording;
+use crate::read::incomplete::{named, none_whole, parted};
 use crate::read::last_read::LastRead;
-use crate::read::{Recording, SequenceReader};
+use crate::read::opened::Opened;
 use source::Drive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,21 +33,19 @@ const TABLES: &str = "radar_data.h5";
 /// Which rows are which scan.
 const SCENES: &str = "scenes.json";
 
-/// Opens the data set or a sequence.
+/// Opens the data set or a sequence; where names are given, those.
 ///
-/// Errors: no sequence, damaged or contradictory files.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// Errors: no sequence. Of one that is named, or if all are such: damaged or contradictory files.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let (folders, incomplete) = parted(sequence_folders(path)?, missing);
     if folders.is_empty() {
         let expected = format!("sequences with `{TABLES}` and `{SCENES}`");
         return Err(none_whole(path, expected, &incomplete));
     }
     let tables = Arc::new(LastRead::new(tables::detections, 2));
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(folders.len());
-    for folder in &folders {
-        sequences.push(Box::new(Drive::new(folder, tables.clone())?));
-    }
-    Ok(Recording { incomplete, ..Recording::new(path, NAME, sequences) })
+    let folders = folders.into_iter().map(|folder| (named(&folder), folder)).collect();
+    let opened = Opened::of(folders, names, |_, folder| Drive::new(&folder, tables.clone()))?;
+    Ok(opened.recording(path, NAME, incomplete))
 }
 
 /// Whether a folder looks like RadarScenes.

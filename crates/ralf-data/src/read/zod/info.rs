@@ -8,14 +8,17 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Sequences by name, each with the list that it is from.
-pub(super) type Listed = BTreeMap<String, (PathBuf, Info)>;
+/// A sequence with the list that it is from, or why nobody can tell which files are its.
+pub(super) type Told = Result<(PathBuf, Info), DataError>;
+
+/// Sequences by name.
+pub(super) type Listed = BTreeMap<String, Told>;
 
 /// A list: sequences by split (`train`, `val`).
 type List = BTreeMap<String, Vec<Info>>;
 
 /// What a sequence consists of. Paths are relative to the data set's folder.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct Info {
     pub(super) id: String,
     #[serde(alias = "calibrationPath")]
@@ -34,7 +37,7 @@ pub(super) struct Info {
 }
 
 /// A file of a sensor.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct Frame {
     pub(super) filepath: String,
     /// ns
@@ -45,11 +48,20 @@ pub(super) struct Frame {
     pub(super) is_compensated: bool,
 }
 
-/// Adds the sequences of a list. One that an earlier list has as well is the same.
+/// Adds the sequences of a list. One that is listed once more has to say the same: nobody could tell which is true.
 pub(super) fn read(list: &Path, prefix: &str, listed: &mut Listed) -> Result<(), DataError> {
     let found: List = json::read(list, Kind::Table, "sequences by split, with their files")?;
     for info in found.into_values().flatten() {
-        listed.entry(format!("{prefix}{}", info.id)).or_insert_with(|| (list.to_owned(), info));
+        let place = format!("id `{}`", info.id);
+        let told = listed
+            .entry(format!("{prefix}{}", info.id))
+            .or_insert_with(|| Ok((list.to_owned(), info.clone())));
+        if let Ok((first, known)) = told
+            && *known != info
+        {
+            let expected = format!("the files that {} lists for it", first.display());
+            *told = Err(DataError::content(list, place, expected, "others"));
+        }
     }
     Ok(())
 }

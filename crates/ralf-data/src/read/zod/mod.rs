@@ -20,7 +20,8 @@ mod time;
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::Recording;
+use crate::read::opened::Opened;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,22 +30,24 @@ pub(crate) const NAME: &str = "zod";
 /// What the lists' names begin with, and what stands before the name of a sequence out of them.
 const LISTS: [(&str, &str); 2] = [("trainval-sequences-", ""), ("trainval-drives-", "drive_")];
 
-/// Opens the data set at the folder that holds the lists.
+/// Opens the data set at the folder that holds the lists; where names are given, those sequences.
 ///
-/// Errors: no list or damaged ones, none of the listed sequences on disk, calibrations and poses that are none.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// Errors: no list or damaged ones, none of the listed sequences on disk. Of a sequence that is named, or if all are
+/// such: calibrations and poses that are none, lists that contradict each other.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let mut listed = info::Listed::default();
     for (list, prefix) in lists(path)? {
         info::read(&list, prefix, &mut listed)?;
     }
     let radar_files = Arc::new(radar::radar_files());
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
-    for (name, (list, info)) in listed {
-        if files::exists(&path.join(&info.calibration_path))? {
-            sequences.push(Box::new(source::sequence(path, &name, &list, info, &radar_files)?));
+    let mut found = Vec::new();
+    for (name, told) in listed {
+        let is_there = |info: &info::Info| files::exists(&path.join(&info.calibration_path));
+        if told.as_ref().map_or(Ok(true), |(_, info)| is_there(info))? {
+            found.push((name, told));
         }
     }
-    if sequences.is_empty() {
+    if found.is_empty() {
         return Err(DataError::content(
             path,
             "sequences",
@@ -52,7 +55,11 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
             "none",
         ));
     }
-    Ok(Recording::new(path, NAME, sequences))
+    let open = |name: &str, told: info::Told| {
+        let (list, info) = told?;
+        source::sequence(path, name, &list, info, &radar_files)
+    };
+    Ok(Opened::of(found, names, open)?.recording(path, NAME, Vec::new()))
 }
 
 /// Whether a folder looks like ZOD's Sequences or Drives.

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// A recording's only sequence.
 fn only(path: &Path) -> Box<dyn SequenceReader> {
-    open(path).unwrap().sequences.remove(0)
+    open(path, &[]).unwrap().sequences.remove(0)
 }
 
 /// The sequence in a folder of its own.
@@ -173,7 +173,7 @@ fn a_trajectory_corrects_points_where_the_recording_has_no_poses() {
     assert_eq!(measured.points, plain.rolling_scan(0, 2).unwrap().unwrap().points);
     let mut settings = Settings::default();
     settings.motion.trajectory = Some(poses);
-    let corrected = settings.correct(open(&sequence).unwrap()).unwrap().sequences.remove(0);
+    let corrected = settings.correct(open(&sequence, &[]).unwrap()).unwrap().sequences.remove(0);
     assert_eq!((corrected.motion_source(), corrected.warnings()), (MotionSource::Trajectory, &[][..]));
     let mounting = corrected.sequence().rig.lidars[0].vehicle_from_lidar;
     assert_posts(&corrected.lidar_scan(0, 2).unwrap(), &mounting, 2);
@@ -193,7 +193,7 @@ fn nothing_is_written_of_a_lidar_before_the_motion_is_known() {
     assert!(!own.join("sequences").join(SEQUENCE).exists());
     let mut settings = Settings::default();
     settings.motion.trajectory = Some(poses);
-    let corrected = settings.correct(open(&sequence).unwrap()).unwrap().sequences.remove(0);
+    let corrected = settings.correct(open(&sequence, &[]).unwrap()).unwrap().sequences.remove(0);
     crate::write_sequence(corrected.as_ref(), &own, &|_| ()).unwrap();
     let written = crate::read::open(&own, None).unwrap().sequences.remove(0);
     let text = |reader: &dyn SequenceReader| format!("{:?}", reader.lidar_scan(0, 2).unwrap());

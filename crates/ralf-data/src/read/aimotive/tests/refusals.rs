@@ -3,6 +3,7 @@
 use super::recording::{FRAMES, T0, laz, write_sequence};
 use crate::disk::laz as file;
 use crate::read::aimotive::open;
+use crate::testing::check_left_out;
 use nalgebra::Point3;
 use std::fs;
 use std::path::Path;
@@ -49,7 +50,7 @@ fn damaged_metadata_is_named_when_a_sequence_is_opened() {
     for (name, from, to, words) in cases {
         let folder = drive();
         replace(folder.path(), name, from, to);
-        let error = open(folder.path()).unwrap_err().to_string();
+        let error = open(folder.path(), &[]).unwrap_err().to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{error} lacks some of {words:?}");
         assert!(error.starts_with(folder.path().to_str().unwrap()), "{error}");
     }
@@ -60,7 +61,7 @@ fn missing_and_strange_files_are_named() {
     let refused = |harm: &dyn Fn(&Path), words: &[&str]| {
         let folder = drive();
         harm(folder.path());
-        let error = open(folder.path()).unwrap_err().to_string();
+        let error = open(folder.path(), &[]).unwrap_err().to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{error} lacks some of {words:?}");
         assert!(error.starts_with(folder.path().to_str().unwrap()), "{error}");
     };
@@ -87,14 +88,14 @@ fn missing_and_strange_files_are_named() {
     for environment in ["rain", "urban"] {
         write_sequence(&whole.path().join("train").join(environment).join("one"));
     }
-    let error = open(whole.path()).unwrap_err().to_string();
+    let error = open(whole.path(), &[]).unwrap_err().to_string();
     assert!(error.contains("a name that no other sequence has"), "{error}");
 }
 
 #[test]
 fn bad_scans_are_named_when_they_are_read_and_the_others_are_read() {
     let folder = drive();
-    let opened = open(folder.path()).unwrap();
+    let opened = open(folder.path(), &[]).unwrap();
     let reader = &opened.sequences[0];
     let radar = format!("sensor/radar/F_LRR_C/F_LRR_C_{:07}.json", FRAMES[1]);
     replace(folder.path(), &radar, "\"range\"", "\"rage\"");
@@ -190,11 +191,25 @@ fn a_sequence_that_lost_its_calibration_or_radars_is_named_and_makes_no_recordin
     fs::create_dir_all(night.join("notes")).unwrap();
     let opened = crate::open(folder.path(), None).unwrap();
     assert_eq!(opened.sequences.len(), 1);
-    let lost: Vec<_> = opened.incomplete.iter().map(|lost| (lost.name.as_str(), lost.missing)).collect();
-    assert_eq!(lost, [("B", CALIBRATION), ("C", "sensor/radar"), ("D", CALIBRATION)]);
+    let lost: Vec<_> =
+        opened.incomplete.iter().map(|lost| (lost.name.clone(), lost.lost.to_string())).collect();
+    let missing = [("B", CALIBRATION), ("C", "sensor/radar"), ("D", CALIBRATION)];
+    assert_eq!(lost, missing.map(|(name, part)| (name.to_owned(), format!("{part} is missing"))));
     fs::remove_dir_all(night.join("A")).unwrap();
     let error = |format| crate::open(folder.path(), format).unwrap_err().to_string();
     assert!(error(None).ends_with("found none of them"), "{}", error(None));
     let told = error(Some("aimotive"));
     assert!(told.ends_with("found none: B is without sensor/calibration/calibration.json"), "{told}");
+}
+
+#[test]
+fn a_damaged_sequence_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let night = folder.path().join("train/night");
+    ["A", "B"].into_iter().for_each(|name| write_sequence(&night.join(name)));
+    fs::write(night.join("A").join(CALIBRATION), "").unwrap();
+    check_left_out(folder.path(), ["B", "A"], "calibration.json: ");
+    fs::write(night.join("B").join(CALIBRATION), "").unwrap();
+    let error = open(folder.path(), &[]).unwrap_err().to_string();
+    assert!(error.contains("night/A/sensor/calibration"), "{error}");
 }

@@ -15,7 +15,7 @@ use std::fs;
 fn unzipped() -> (tempfile::TempDir, Recording) {
     let folder = tempfile::tempdir().unwrap();
     write_unzipped(folder.path());
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     (folder, recording)
 }
 
@@ -34,7 +34,7 @@ fn unzipped_chunks_and_folders_of_clips_are_the_same() {
     write_clip(clips.path());
     for path in [clips.path().to_owned(), clips.path().join(CLIP)] {
         assert!(recognises(&path));
-        assert_eq!(text(&open(&path).unwrap()), text(&recording));
+        assert_eq!(text(&open(&path, &[]).unwrap()), text(&recording));
     }
     assert!(!recognises(tempfile::tempdir().unwrap().path()));
 }
@@ -78,7 +78,7 @@ fn a_distance_that_is_not_above_zero_is_no_place() {
     let mut rows = radar(true);
     rows[10].1 = Values::Float(vec![20.0, -1.5, f32::NAN, 21.0, 0.0, 19.5]);
     write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     let scans = (0..3).map(|scan| only(&recording).radar_scan(0, scan).unwrap());
     let placed = scans.flat_map(|scan| scan.positions).map(|place| place.coords.norm().is_finite());
     assert_eq!(placed.collect::<Vec<_>>(), [true, false, false, true, false, true]);
@@ -109,12 +109,12 @@ fn what_is_better_is_preferred_and_what_is_left_out_is_told() {
     for name in ["lidar", "camera"] {
         fs::create_dir(folder.path().join(name)).unwrap();
     }
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     assert_eq!(only(&recording).sequence().motion.between(0, 50_000_000).translation.x, 0.0);
     let [lidar, cameras] = only(&recording).warnings() else { panic!("two warnings") };
     assert!(lidar.contains("Draco") && cameras.contains("f-theta"));
     fs::remove_dir_all(folder.path().join("labels")).unwrap();
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     assert!(!only(&recording).sequence().motion.is_known());
     assert!(only(&recording).warnings()[2].contains("no egomotion"));
 }
@@ -129,7 +129,7 @@ fn other_names_of_the_index_and_other_chunks() {
     let calibration = folder.path().join("calibration/sensor_extrinsics");
     write(&calibration.join("sensor_extrinsics.chunk_0001.parquet"), &extrinsics(CLIP));
     write(&calibration.join("sensor_extrinsics.chunk_0000.parquet"), &extrinsics("another"));
-    assert_eq!(text(&open(folder.path()).unwrap()), text(&recording));
+    assert_eq!(text(&open(folder.path(), &[]).unwrap()), text(&recording));
 }
 
 /// pandas and pyarrow take Snappy unless they are told otherwise.
@@ -142,7 +142,7 @@ fn tables_are_read_however_they_are_compressed() {
         write_compressed(&motion, &egomotion(), compression);
         let front = folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet"));
         write_compressed(&front, &radar(true), compression);
-        assert_eq!(text(&open(folder.path()).unwrap()), text(&recording), "{compression}");
+        assert_eq!(text(&open(folder.path(), &[]).unwrap()), text(&recording), "{compression}");
     }
 }
 
@@ -166,5 +166,5 @@ fn rows_of_a_scan_need_not_lie_together() {
         }
     }
     write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
-    assert_eq!(text(&open(folder.path()).unwrap()), text(&recording));
+    assert_eq!(text(&open(folder.path(), &[]).unwrap()), text(&recording));
 }

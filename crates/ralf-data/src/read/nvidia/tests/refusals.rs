@@ -3,8 +3,11 @@
 use super::recording::{
     CLIP, Columns, FRONT, REAR, Values, egomotion, extrinsics, radar, write, write_unzipped,
 };
+use crate::Settings;
 use crate::read::nvidia::{open, recognises};
+use crate::testing::check_left_out;
 use std::fs;
+use std::path::{Path, PathBuf};
 
 const RADAR: &str = "radar/radar_front_center_imaging_lrr_1";
 const CHUNK: &str = "calibration/sensor_extrinsics/sensor_extrinsics.chunk_0000.parquet";
@@ -14,7 +17,7 @@ fn refused(file: &str, columns: &Columns) -> String {
     let folder = tempfile::tempdir().unwrap();
     write_unzipped(folder.path());
     write(&folder.path().join(file), columns);
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.starts_with(folder.path().to_str().unwrap()), "{error}");
     error
 }
@@ -99,7 +102,7 @@ fn a_second_row_of_a_sensor_says_the_same_or_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     write_unzipped(folder.path());
     write(&folder.path().join(CHUNK), &twice(0.0));
-    assert!(open(folder.path()).is_ok());
+    assert!(open(folder.path(), &[]).is_ok());
 }
 
 /// Rows that are alike take no room in a file, and much in memory.
@@ -130,13 +133,13 @@ fn damaged_and_zipped_files_are_named() {
     let file = folder.path().join(format!("{RADAR}/{CLIP}.{FRONT}.parquet"));
     let whole = fs::read(&file).unwrap();
     fs::write(&file, &whole[..whole.len() - 9]).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("content: expected a Parquet file, found"), "{error}");
     let zipped = tempfile::tempdir().unwrap();
     fs::create_dir_all(zipped.path().join(RADAR)).unwrap();
     fs::write(zipped.path().join(RADAR).join("a.chunk_0000.zip"), "PK").unwrap();
     assert!(recognises(zipped.path()));
-    let error = open(zipped.path()).map(drop).unwrap_err().to_string();
+    let error = open(zipped.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.ends_with("found zip files: unzip them where they lie"), "{error}");
 }
 
@@ -152,7 +155,7 @@ fn a_compression_that_is_not_read_is_named() {
     let place = bytes.windows(told.len()).rposition(|window| window == told).unwrap();
     bytes[place + told.len() - 1] = 8;
     fs::write(&file, bytes).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(
         error.ends_with(
             "rcs: expected values that are compressed by Snappy, gzip, LZ4 or zstd, or not at all, \
@@ -160,4 +163,33 @@ fn a_compression_that_is_not_read_is_named() {
         ),
         "{error}"
     );
+}
+
+/// A second clip whose front radar alone has a file, and which tells no motion.
+fn second_clip(folder: &Path) -> PathBuf {
+    write_unzipped(folder);
+    let front = folder.join(format!("{RADAR}/another.{FRONT}.parquet"));
+    write(&front, &radar(true));
+    let chunk = CHUNK.replace("0000", "0001");
+    write(&folder.join(chunk), &extrinsics("another"));
+    front
+}
+
+#[test]
+fn a_damaged_clip_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let front = second_clip(folder.path());
+    fs::write(front, "PAR1").unwrap();
+    check_left_out(folder.path(), [CLIP, "another"], "expected a Parquet file");
+}
+
+/// Two detections a scan are too few to tell it.
+#[test]
+fn a_clip_whose_motion_nothing_tells_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    second_clip(folder.path());
+    check_left_out(folder.path(), [CLIP, "another"], "sequence another: the vehicle's motion: ");
+    let asked = Settings::from_toml("", &["motion.source=radar"]).unwrap();
+    let error = asked.correct(open(folder.path(), &[]).unwrap()).unwrap_err().to_string();
+    assert!(error.contains("the vehicle's motion: "), "{error}");
 }

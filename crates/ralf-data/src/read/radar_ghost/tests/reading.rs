@@ -12,7 +12,7 @@ use crate::{Label, write_labels};
 fn dataset() -> (tempfile::TempDir, Recording) {
     let folder = tempfile::tempdir().unwrap();
     write_dataset(folder.path());
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     (folder, recording)
 }
 
@@ -32,7 +32,7 @@ fn a_file_a_split_and_the_whole_set_are_recognised() {
         &radar(),
         &lidar(),
     );
-    assert_eq!(open(folder.path()).unwrap().sequences.len(), 2);
+    assert_eq!(open(folder.path(), &[]).unwrap().sequences.len(), 2);
     assert!(!recognises(tempfile::tempdir().unwrap().path()));
 }
 
@@ -149,7 +149,7 @@ fn other_orders_units_and_types_are_the_same_recording() {
     }
     rows.retain(|(name, _)| *name != "group" && *name != "mirror");
     write_sequence(&folder.path().join("scenario-01_sequence-01_ped_test.h5"), &rows, &lidar());
-    let other = open(folder.path()).unwrap();
+    let other = open(folder.path(), &[]).unwrap();
     let (_kept, recording) = dataset();
     assert_eq!(only(&other).sequence().times, only(&recording).sequence().times);
     let text = |recording: &Recording| format!("{:?}", only(recording).radar_scan(0, 3).unwrap());
@@ -174,7 +174,7 @@ fn a_scan_of_several_times_is_told() {
         }
     }
     write_sequence(&folder.path().join("scenario-01_a.h5"), &rows, &lidar());
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     assert!(only(&recording).warnings()[0].starts_with("detections of several times in 1 of the scans"));
 }
 
@@ -185,7 +185,7 @@ fn a_file_that_shrinks_while_it_is_read_is_told() {
     for name in ["scenario-03_b.h5", "scenario-04_c.h5"] {
         write_sequence(&folder.path().join("original/test").join(name), &radar(), &lidar());
     }
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     let short = radar().into_iter().map(|(name, values)| (name, values.picked(&[0, 8]))).collect();
     write_sequence(&folder.path().join(FILE), &short, &lidar());
     let error = only(&recording).radar_scan(0, 4).unwrap_err().to_string();

@@ -3,6 +3,7 @@
 use super::hdf5::{Columns, Values};
 use super::recording::{lidar, radar, write_sequence};
 use crate::read::radar_ghost::open;
+use crate::testing::check_left_out;
 use std::fs;
 
 /// What opening a sequence of these tables says.
@@ -10,7 +11,7 @@ fn refused(radar: &Columns, lidar: &Columns) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scenario-01_a.h5");
     write_sequence(&file, radar, lidar);
-    let error = open(&file).map(drop).unwrap_err().to_string();
+    let error = open(&file, &[]).map(drop).unwrap_err().to_string();
     assert!(error.starts_with(file.to_str().unwrap()), "{error}");
     error
 }
@@ -82,7 +83,7 @@ fn a_label_that_the_convention_does_not_have_is_named() {
         Values::Long(ids)
     };
     write_sequence(&file, &changed(radar(), "label_id", strange), &lidar());
-    let recording = open(&file).unwrap();
+    let recording = open(&file, &[]).unwrap();
     assert!(recording.sequences[0].radar_scan(0, 0).is_ok());
     let error = recording.sequences[0].truth(0, 0).unwrap_err().to_string();
     assert!(error.contains("radar, label_id: expected 0, -1, -2 or four digits"), "{error}");
@@ -97,11 +98,22 @@ fn other_files_and_two_of_one_name_are_refused() {
     let whole = fs::read(&file).unwrap();
     fs::create_dir(folder.path().join("val")).unwrap();
     fs::write(folder.path().join("val/scenario-01_a.h5"), &whole).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("name: expected a name that no other sequence has, found"), "{error}");
     fs::write(&file, &whole[..whole.len() / 2]).unwrap();
-    assert!(open(&file).map(drop).unwrap_err().to_string().contains("scenario-01_a.h5: "));
+    assert!(open(&file, &[]).map(drop).unwrap_err().to_string().contains("scenario-01_a.h5: "));
     let empty = tempfile::tempdir().unwrap();
-    let error = open(empty.path()).map(drop).unwrap_err().to_string();
+    let error = open(empty.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("files: expected sequences, `scenario-*.h5`, found none"), "{error}");
+}
+
+#[test]
+fn a_damaged_sequence_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join("train").join(name).with_extension("h5");
+    let names = ["scenario-01_a", "scenario-01_b"];
+    names.into_iter().for_each(|name| write_sequence(&file(name), &radar(), &lidar()));
+    let whole = fs::read(file(names[1])).unwrap();
+    fs::write(file(names[1]), &whole[..whole.len() / 2]).unwrap();
+    check_left_out(folder.path(), names, "scenario-01_b.h5: ");
 }

@@ -11,7 +11,7 @@ use std::fs;
 fn dataset() -> (tempfile::TempDir, Recording) {
     let folder = tempfile::tempdir().unwrap();
     write_dataset(folder.path());
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     (folder, recording)
 }
 
@@ -84,7 +84,7 @@ fn labels_of_the_authors_and_of_clutter_ds_are_told_apart() {
     assert_eq!(truth.scans().len(), 2 * SCANS);
     assert!(truth.causes("sequence_1").unwrap().is_none());
     write_sequence(&folder.path().join("data/sequence_1"), &sequence(true));
-    let relabelled = open(folder.path()).unwrap();
+    let relabelled = open(folder.path(), &[]).unwrap();
     assert_eq!(ids(&relabelled), [0, 0, 0, 99, 1]);
     assert!(only(&relabelled).sequence().title.ends_with(", labels of clutter-ds"));
     let converted = tempfile::tempdir().unwrap();
@@ -102,7 +102,7 @@ fn what_is_missing_or_left_out_is_told() {
     let (folder, _) = dataset();
     fs::remove_file(folder.path().join("data/sensors.json")).unwrap();
     fs::create_dir(folder.path().join("data/sequence_1/camera")).unwrap();
-    let recording = open(folder.path()).unwrap();
+    let recording = open(folder.path(), &[]).unwrap();
     let [mountings, camera] = only(&recording).warnings() else { panic!("two warnings") };
     assert!(mountings.contains("no sensors.json") && camera.contains("no calibration"));
     assert_eq!(only(&recording).inputs().len(), 2);

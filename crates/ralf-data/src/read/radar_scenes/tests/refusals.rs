@@ -3,6 +3,7 @@
 use super::hdf5::Values;
 use super::recording::{Sequence, sensors, sequence, write_dataset, write_sequence};
 use crate::read::radar_scenes::open;
+use crate::testing::check_left_out;
 use std::fs;
 
 /// What opening a changed sequence says.
@@ -11,7 +12,7 @@ fn refused(change: impl Fn(&mut Sequence)) -> String {
     let mut changed = sequence(false);
     change(&mut changed);
     write_sequence(&folder.path().join("sequence_1"), &changed);
-    open(folder.path()).map(drop).unwrap_err().to_string()
+    open(folder.path(), &[]).map(drop).unwrap_err().to_string()
 }
 
 #[test]
@@ -94,15 +95,15 @@ fn strange_mountings_and_labels_are_named() {
     let mut other = sensors();
     other["radar_2"]["id"] = 7.into();
     fs::write(&file, other.to_string()).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("sensor_id: expected the id of a radar that has a mounting, found 2"), "{error}");
     let mut twice = sensors();
     twice["radar_3_again"] = twice["radar_3"].clone();
     fs::write(&file, twice.to_string()).unwrap();
-    assert!(open(folder.path()).is_ok());
+    assert!(open(folder.path(), &[]).is_ok());
     twice["radar_3_again"]["yaw"] = 2.0.into();
     fs::write(&file, twice.to_string()).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(
         error.ends_with(
             "sensors.json: radar_3_again, id: expected an id of its own, \
@@ -113,16 +114,26 @@ fn strange_mountings_and_labels_are_named() {
     let mut far = sensors();
     far["radar_2"]["x"] = 1e308.into();
     fs::write(&file, far.to_string()).unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("sensors.json: radar_2: expected at most 1000 m from the vehicle"), "{error}");
     fs::write(&file, "{\"radar_2\": {\"id\": 2}}").unwrap();
-    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
     assert!(error.contains("sensors.json: line 1, column") && error.contains("missing field `x`"), "{error}");
     let mut strange = sequence(false);
     let Values::Byte(labels) = &mut strange.radar[13].1 else { panic!("bytes") };
     labels[6] = 12;
     write_sequence(&folder.path().join("sequence_2"), &strange);
-    let recording = open(&folder.path().join("sequence_2")).unwrap();
+    let recording = open(&folder.path().join("sequence_2"), &[]).unwrap();
     let error = recording.sequences[0].truth(0, 0).unwrap_err().to_string();
     assert!(error.contains("label_id: expected a class from 0 to 11, found 12 in row 6"), "{error}");
+}
+
+#[test]
+fn a_damaged_sequence_costs_the_others_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    write_dataset(folder.path());
+    let damaged = folder.path().join("data/sequence_2");
+    write_sequence(&damaged, &sequence(false));
+    fs::write(damaged.join("radar_data.h5"), "").unwrap();
+    check_left_out(folder.path(), ["sequence_1", "sequence_2"], "sequence_2/radar_data.h5: ");
 }

@@ -3,6 +3,7 @@
 mod recording;
 
 use super::*;
+use crate::read::SequenceReader;
 use crate::testing;
 use ralf::sensors::{Intrinsics, is_return};
 use ralf::space::Point;
@@ -202,4 +203,34 @@ fn what_is_damaged_names_file_and_place() {
     );
     testing::write(&radar, &order);
     set.refused(&["record 1: expected a scan after the one before"]);
+}
+
+/// Lists the sequence once more under another number, and with another calibration.
+fn twin(set: &DataSet) -> String {
+    let calibration = format!("{FOLDER}/other.json");
+    fs::copy(set.0.path().join(FOLDER).join("calibration.json"), set.0.path().join(&calibration)).unwrap();
+    set.edit(LIST, |list| {
+        let mut other = list["train"][0].clone();
+        (other["id"], other["calibration_path"]) = (json!("000007"), json!(calibration));
+        list["train"].as_array_mut().unwrap().push(other);
+    });
+    calibration
+}
+
+#[test]
+fn a_damaged_sequence_costs_the_others_nothing() {
+    let set = DataSet::new();
+    let calibration = twin(&set);
+    set.edit(&calibration, |value| value["FC"]["image_dimensions"][0] = json!(0));
+    testing::check_left_out(set.0.path(), ["000000", "000007"], "other.json: ");
+}
+
+#[test]
+fn a_number_that_is_listed_twice_says_the_same_or_is_refused() {
+    let set = DataSet::new();
+    twin(&set);
+    set.edit(LIST, |list| list["val"] = list["train"].clone());
+    assert_eq!(crate::read::open(set.0.path(), None).unwrap().sequences.len(), 2);
+    set.edit(LIST, |list| list["val"][1]["ego_motion_path"] = json!("elsewhere.json"));
+    testing::check_left_out(set.0.path(), ["000000", "000007"], "id `000007`: expected the files that ");
 }
