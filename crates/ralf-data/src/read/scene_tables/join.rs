@@ -31,6 +31,7 @@ pub(crate) struct Channel {
 }
 
 /// One file of one sensor.
+#[derive(PartialEq)]
 pub(crate) struct Measurement {
     /// Its row in `sample_data.json`.
     pub(crate) token: Token,
@@ -103,7 +104,26 @@ pub(crate) fn read_scenes(
     for scene in &mut records {
         scene.sort();
     }
+    check_tokens(&version.join("sample_data.json"), &records)?;
     Ok(Scenes { records, scene_of_pose })
+}
+
+/// Refuses a token that two measurements have: nobody could tell which of them is its.
+fn check_tokens(file: &Path, scenes: &[SceneRecord]) -> Result<(), DataError> {
+    let measurements =
+        scenes.iter().flat_map(|scene| &scene.channels).flat_map(|channel| &channel.measurements);
+    let mut tokens: Vec<&Token> = measurements.map(|measurement| &measurement.token).collect();
+    tokens.sort_unstable();
+    let twice = tokens.windows(2).find(|pair| pair[0] == pair[1]);
+    twice.map_or(Ok(()), |pair| {
+        let found = "several, with other values";
+        Err(DataError::content(
+            file,
+            format!("token `{}`", pair[0]),
+            "one row, or rows that are alike",
+            found,
+        ))
+    })
 }
 
 impl Scenes {
@@ -182,7 +202,9 @@ impl SceneRecord {
     fn sort(&mut self) {
         self.channels.sort_by(|a, b| a.calibration.rank().cmp(&b.calibration.rank()));
         for channel in &mut self.channels {
-            channel.measurements.sort_by(|a, b| (a.t_ns, &a.file).cmp(&(b.t_ns, &b.file)));
+            channel.measurements.sort_by(|a, b| (a.t_ns, &a.file, a.token).cmp(&(b.t_ns, &b.file, b.token)));
+            // A row that is there twice says the same again.
+            channel.measurements.dedup();
         }
     }
 }
@@ -195,16 +217,34 @@ fn read_samples(
     let (mut scenes, mut scene_indices) = (Vec::new(), HashMap::new());
     for_each_row(&version.join("scene.json"), |row: SceneRow| {
         let title = title(&row.description, row.log_token)?;
-        scene_indices.insert(row.token, scenes.len());
-        scenes.push(SceneRecord { name: row.name, title, channels: Vec::new(), poses: Vec::new() });
+        let said_before = |index: &usize| {
+            let scene: &SceneRecord = &scenes[*index];
+            scene.name == row.name && scene.title == title
+        };
+        let index = scene_indices.get(&row.token).copied().filter(said_before).unwrap_or(scenes.len());
+        take(&mut scene_indices, row.token, index)?;
+        if index == scenes.len() {
+            check_name(&row.name, &scenes)?;
+            scenes.push(SceneRecord { name: row.name, title, channels: Vec::new(), poses: Vec::new() });
+        }
         Ok(())
     })?;
     let mut scene_of_sample = HashMap::new();
     for_each_row(&version.join("sample.json"), |row: SampleRow| {
-        scene_of_sample.insert(row.token, *lookup(&scene_indices, row.scene_token, "scene.json")?);
-        Ok(())
+        take(&mut scene_of_sample, row.token, *lookup(&scene_indices, row.scene_token, "scene.json")?)
     })?;
     Ok((scenes, scene_of_sample))
+}
+
+/// A sequence is named after its scene: refuses what is no name of its own.
+fn check_name(name: &str, scenes: &[SceneRecord]) -> Result<(), String> {
+    if name.is_empty() || name.contains('/') {
+        return Err(format!("a scene of the name {name:?}, which no folder can have"));
+    }
+    match scenes.iter().any(|scene| scene.name == name) {
+        true => Err(format!("a second scene of the name {name:?}")),
+        false => Ok(()),
+    }
 }
 
 fn read_calibrations(version: &Path) -> Result<HashMap<Token, Calibration>, DataError> {

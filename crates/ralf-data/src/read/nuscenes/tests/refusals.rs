@@ -106,6 +106,7 @@ fn a_second_row_of_a_token_says_the_same_or_is_refused() {
     for (table, key, value) in [
         ("calibrated_sensor", "translation", json!([3.0, 1.0, 0.6])),
         ("sensor", "channel", json!("RADAR_BACK_LEFT")),
+        ("scene", "description", json!("Straight on")),
     ] {
         let set = DataSet::new();
         set.edit(table, |rows| rows.push(rows[0].clone()));
@@ -113,6 +114,28 @@ fn a_second_row_of_a_token_says_the_same_or_is_refused() {
         set.edit(table, |rows| rows[0][key] = value);
         set.refused(&[&format!("{table}.json: line"), "a second row of the token", "with other values"]);
     }
+}
+
+#[test]
+fn a_measurement_that_is_listed_twice_is_read_once() {
+    let set = DataSet::new();
+    let count = |set: &DataSet| set.open().unwrap().sequence().times.radars[0].len();
+    let once = count(&set);
+    set.edit("sample_data", |rows| rows.extend(rows.clone()));
+    set.edit("sample", |rows| rows.push(rows[0].clone()));
+    assert_eq!(count(&set), once);
+    set.edit("sample_data", |rows| rows[0]["timestamp"] = json!(T0 + 151 * MS));
+    set.refused(&[
+        "sample_data.json: token `sweeps/RADAR_FRONT/c.pcd`: expected one row, or rows that are alike",
+    ]);
+    let set = DataSet::new();
+    set.edit("scene", |rows| {
+        let mut other = rows[0].clone();
+        (other["token"], other["name"]) = (json!("t"), json!("scene-0000"));
+        rows.push(other);
+    });
+    set.edit("sample", |rows| rows.push(json!({"token": "x", "scene_token": "t", "timestamp": T0})));
+    set.refused(&["sample.json: line", "a second row of the token `x`, with other values"]);
 }
 
 #[test]

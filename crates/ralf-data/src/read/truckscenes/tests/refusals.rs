@@ -1,5 +1,6 @@
 //! What is damaged or contradicts itself is named.
 
+use super::recording::world::T0;
 use super::*;
 
 #[test]
@@ -75,4 +76,36 @@ fn the_version_is_told_by_the_folder() {
     let set = DataSet::new();
     fs::create_dir(set.0.path().join("v1.1-mini")).unwrap();
     set.refused(&["exactly one version folder", "found v1.1-mini, v1.2-mini"]);
+}
+
+/// A second scene of another lorry, with a sample, a measurement and poses of its own, this much after the first, us.
+fn other_lorry(set: &DataSet, after: i64, name: &str) {
+    let twin = |rows: &mut Vec<Value>, changes: &[(&str, Value)]| {
+        let mut row = rows[0].clone();
+        changes.iter().for_each(|(key, value)| row[*key] = value.clone());
+        rows.push(row);
+    };
+    set.edit("scene", |rows| twin(rows, &[("token", json!("scene")), ("name", json!(name))]));
+    let of_scene = [("token", json!("sample")), ("scene_token", json!("scene"))];
+    set.edit("sample", |rows| twin(rows, &of_scene));
+    let us = T0 + after;
+    let data = [("token", json!("data")), ("sample_token", json!("sample")), ("timestamp", json!(us))];
+    set.edit("sample_data", |rows| twin(rows, &data));
+    for later in [0, 10_000] {
+        let pose = [("timestamp", json!(us + later)), ("translation", json!([0, 0, 0]))];
+        set.edit("ego_pose", |rows| twin(rows, &pose));
+    }
+}
+
+#[test]
+fn names_of_scenes_are_their_own() {
+    for (name, words) in [
+        ("", "a scene of the name \"\", which no folder can have"),
+        ("../a", "a scene of the name \"../a\", which no folder can have"),
+        (SCENE, "a second scene of the name"),
+    ] {
+        let set = DataSet::new();
+        other_lorry(&set, 3_000_000, name);
+        set.refused(&["scene.json: line 1", words]);
+    }
 }
