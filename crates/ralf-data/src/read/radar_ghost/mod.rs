@@ -9,7 +9,7 @@
 //! - A LiDAR's scan is the points of one `timestamp`, brought from the car's frame to the LiDAR's. They have no
 //!   intensity.
 //! - Times count from the recording's begin in a unit that the data set doesn't say; the time between two scans tells
-//!   it.
+//!   it. Of a table with a single time the other one tells it.
 //! - Mountings are those of the data set's page. The car's frame begins at some height above the road, which is nowhere
 //!   said.
 //! - `label_id` is the truth, never a column that labels could be made from: [`labels`] says what becomes of it.

@@ -1,7 +1,7 @@
 //! The two tables of a file as they are needed.
 
 use super::labels::truth;
-use super::scans::{nanoseconds, unit};
+use super::scans::{UNTOLD, nanoseconds, unit};
 use crate::disk::hdf5::{Hdf5File, Table};
 use crate::error::DataError;
 use crate::read::instances::numbered;
@@ -47,9 +47,11 @@ pub(super) fn detections(file: &Path) -> Result<Detections, DataError> {
     let table = Hdf5File::open(file)?.table("radar")?;
     let sensors = sensors(file, &table)?;
     let times = table.numbers("timestamp")?;
-    let of_one = times.iter().zip(&sensors).filter(|(_, sensor)| Some(*sensor) == sensors.first());
-    let unit = unit(file, "radar", of_one.map(|(time, _)| *time))?;
-    let times = nanoseconds(file, "radar", &times, unit)?;
+    let unit = match unit_of_radar(file, &times, &sensors)? {
+        Some(unit) => Some(unit),
+        None => unit_of_lidar(file, &Hdf5File::open(file)?.table("lidar")?.numbers("timestamp")?)?,
+    };
+    let times = nanoseconds(file, "radar", &times, unit.unwrap_or(UNTOLD))?;
     let frames = table.integers("frame")?;
     let (mut of_radars, mut torn) = ([Vec::new(), Vec::new()], 0);
     for ((sensor, _), scan) in scans(sensors.iter().copied().zip(frames), &times) {
@@ -59,6 +61,18 @@ pub(super) fn detections(file: &Path) -> Result<Detections, DataError> {
     let columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<_, _>>()?;
     let (truth, instances) = (truths(&table)?, instances(&table)?);
     Ok(Detections { columns, truth, instances, scans: of_radars, torn })
+}
+
+/// The unit of the radar table's times: the steps of one radar tell it, for the other measures shortly after it. A
+/// table of a single moment tells none, and has that of the other one.
+fn unit_of_radar(file: &Path, times: &[f64], sensors: &[usize]) -> Result<Option<f64>, DataError> {
+    let of_one = times.iter().zip(sensors).filter(|(_, sensor)| Some(*sensor) == sensors.first());
+    unit(file, "radar", of_one.map(|(time, _)| *time))
+}
+
+/// The same of the LiDAR's table.
+fn unit_of_lidar(file: &Path, times: &[f64]) -> Result<Option<f64>, DataError> {
+    unit(file, "lidar", times.iter().copied())
 }
 
 /// Which of [`RADARS`] each row is of.
@@ -106,8 +120,14 @@ pub(super) fn points(file: &Path) -> Result<Points, DataError> {
         });
     }
     let times = table.numbers("timestamp")?;
-    let unit = unit(file, "lidar", times.iter().copied())?;
-    let times = nanoseconds(file, "lidar", &times, unit)?;
+    let unit = match unit_of_lidar(file, &times)? {
+        Some(unit) => Some(unit),
+        None => {
+            let radar = Hdf5File::open(file)?.table("radar")?;
+            unit_of_radar(file, &radar.numbers("timestamp")?, &sensors(file, &radar)?)?
+        }
+    };
+    let times = nanoseconds(file, "lidar", &times, unit.unwrap_or(UNTOLD))?;
     let scans = scans(times.iter().copied(), &times).into_iter().map(|(_, scan)| scan).collect();
     let [x, y, z] = [table.floats("x_cc")?, table.floats("y_cc")?, table.floats("z_cc")?];
     let points = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();

@@ -1,6 +1,6 @@
 //! What is read of a good recording, and what is true of it.
 
-use super::hdf5::Values;
+use super::hdf5::{Columns, Values};
 use super::recording::{FILE, FRAMES, LATER, lidar, radar, write_dataset, write_sequence};
 use crate::judge::Comparison;
 use crate::read::Recording;
@@ -193,4 +193,31 @@ fn a_file_that_shrinks_while_it_is_read_is_told() {
         error.contains("rows: expected as many rows as when the file was opened, found fewer"),
         "{error}"
     );
+}
+
+/// The table with times of another unit, and of one moment alone where it is told.
+fn rescaled(table: Columns, factor: f64, moment: Option<f64>) -> Columns {
+    let change = |(name, values): (&'static str, Values)| match (name, values) {
+        ("timestamp", Values::Double(times)) => {
+            let time = |t: f64| moment.unwrap_or(t) * factor;
+            (name, Values::Double(times.into_iter().map(time).collect()))
+        }
+        other => other,
+    };
+    table.into_iter().map(change).collect()
+}
+
+#[test]
+fn a_single_moment_has_the_unit_of_the_other_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scenario-01_a.h5");
+    let times = |of_radars: Option<f64>, of_lidar: Option<f64>| {
+        write_sequence(&file, &rescaled(radar(), 1e6, of_radars), &rescaled(lidar(), 1e6, of_lidar));
+        only(&open(&file, &[]).unwrap()).sequence().times.clone()
+    };
+    let both = times(None, None);
+    let of_radars = times(None, Some(0.15));
+    assert_eq!((of_radars.radars, &of_radars.lidars[0][..]), (both.radars, &[150_000_000][..]));
+    let of_lidar = times(Some(0.15), None);
+    assert_eq!((of_lidar.lidars, of_lidar.radars[0][0]), (both.lidars, 150_000_000));
 }
