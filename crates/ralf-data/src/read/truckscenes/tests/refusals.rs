@@ -98,6 +98,30 @@ fn other_lorry(set: &DataSet, after: i64, name: &str) {
 }
 
 #[test]
+fn two_lorries_at_one_time_are_refused() {
+    let count = |set: &DataSet| crate::read::open(set.0.path(), None).unwrap().sequences.len();
+    let apart = DataSet::new();
+    other_lorry(&apart, 3_000_000, "another");
+    assert_eq!(count(&apart), 2);
+    for after in [100_000, 1_000_000] {
+        let set = DataSet::new();
+        other_lorry(&set, after, "another");
+        let span = format!("`another` from {us}000 to {us}000 ns", us = T0 + after);
+        set.refused(&[
+            "ego_pose.json: timestamp: expected scenes",
+            &format!("`{SCENE}` from "),
+            &span,
+            "m apart",
+        ]);
+    }
+    // The same lorry a moment later: its poses are those of both scenes.
+    let set = DataSet::new();
+    other_lorry(&set, 300_000, "another");
+    set.edit("ego_pose", |rows| rows.truncate(rows.len() - 2));
+    assert_eq!(count(&set), 2);
+}
+
+#[test]
 fn names_of_scenes_are_their_own() {
     for (name, words) in [
         ("", "a scene of the name \"\", which no folder can have"),
