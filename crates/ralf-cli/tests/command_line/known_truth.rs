@@ -78,9 +78,9 @@ fn a_damaged_sequence_is_named_and_costs_the_others_nothing() {
     radar_scenes::write_sequence(&damaged, &radar_scenes::sequence(false));
     fs::write(damaged.join("scenes.json"), "{").unwrap();
     let [data, out] = [&data, &out].map(|path| path.to_str().unwrap());
-    for command in [["inspect", data].to_vec(), ["label", data, "-o", out].to_vec()] {
-        ralf(command).exits(3).says(["left out: sequence_2: ", "scenes.json: line 1"]);
-    }
+    let told = ["left out: sequence_2: ", "scenes.json: line 1"];
+    ralf(["inspect", data]).exits(3).says(told);
+    ralf(["label", data, "-o", out]).exits(3).says(told);
     let chosen = |name| ralf(["inspect", data, "--sequence", name]);
     assert!(!chosen("sequence_1").exits(0).stderr.contains("left out"));
     chosen("sequence_2").exits(1).ends_with_error(["scenes.json: line 1"]);
