@@ -28,6 +28,8 @@ const SPEEDS: [f64; 10] = [0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 25.0, 30.0, 35.0, -3
 const WELL: (f64, f64) = (0.1, 0.5);
 /// Radar scans may come this much before the first and after the last LiDAR scan, ns.
 const BEYOND_NS: i64 = 300_000_000;
+/// So many steps from scan to scan the motion goes on at most.
+const STEPS: i64 = 5;
 
 /// The vehicle's motion from the scans of its first LiDAR with the most of them, a pose per scan: for recordings that
 /// have neither odometry nor poses nor range rates.
@@ -114,12 +116,16 @@ impl Way {
     fn poses(self) -> Vec<PoseSample> {
         let [first, second, ..] = self.poses[..] else { return Vec::new() };
         let [.., before, last] = self.poses[..] else { return Vec::new() };
-        let sooner = first.t_ns.saturating_sub(BEYOND_NS);
-        let later = last.t_ns.saturating_add(BEYOND_NS);
-        let head = PoseSample { t_ns: sooner, odom_from_vehicle: ahead(&second, &first, sooner) };
-        let tail = PoseSample { t_ns: later, odom_from_vehicle: ahead(&before, &last, later) };
+        let [head, tail] = [beyond(&second, &first), beyond(&before, &last)];
         [head].into_iter().chain(self.poses).chain([tail]).collect()
     }
+}
+
+/// The pose at which the motion from one to another leads beyond it: before the first, of the second and the first.
+fn beyond(from: &PoseSample, end: &PoseSample) -> PoseSample {
+    let most_ns = end.t_ns.saturating_sub(from.t_ns).saturating_mul(STEPS);
+    let t_ns = end.t_ns.saturating_add(most_ns.clamp(-BEYOND_NS, BEYOND_NS));
+    PoseSample { t_ns, odom_from_vehicle: ahead(from, end, t_ns) }
 }
 
 /// Where the second scan may be: straight on at any speed.
@@ -130,10 +136,36 @@ fn starts(first: &PoseSample, t_ns: i64) -> Vec<Transform> {
 
 /// The pose at a time when the motion between two others goes on.
 fn ahead(before: &PoseSample, last: &PoseSample, t_ns: i64) -> Transform {
-    let share = (t_ns - last.t_ns) as f64 / (last.t_ns - before.t_ns).max(1) as f64;
+    let step_ns = last.t_ns.saturating_sub(before.t_ns);
+    let share = if step_ns == 0 { 0.0 } else { t_ns.saturating_sub(last.t_ns) as f64 / step_ns as f64 };
     let step = before.odom_from_vehicle.inv_mul(&last.odom_from_vehicle);
     // A gap in the recording says nothing of a turn that goes on.
-    let share = share.clamp(-5.0, 5.0);
+    let share = share.min(STEPS as f64);
     let turn = step.rotation.powf(share);
     last.odom_from_vehicle * Transform::from_parts((step.translation.vector * share).into(), turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_motion_goes_on_before_the_first_and_after_the_last_scan() {
+        for (step_ns, beyond_s) in [(100_000_000, 0.3), (50_000_000, 0.25)] {
+            let pose = |i: i64| PoseSample {
+                t_ns: i * step_ns,
+                odom_from_vehicle: Transform::translation(10.0 * (i * step_ns) as f64 * 1e-9, 0.0, 0.0),
+            };
+            let poses = Way { surfaces: Voxels::default(), poses: (0..4).map(pose).collect() }.poses();
+            assert_eq!(poses.len(), 6);
+            for pose in poses {
+                let way = 10.0 * pose.t_ns as f64 * 1e-9;
+                assert!((pose.odom_from_vehicle.translation.x - way).abs() < 1e-9, "{pose:?}");
+                assert!(
+                    (-beyond_s - 1e-9..=3.0 * step_ns as f64 * 1e-9 + beyond_s + 1e-9)
+                        .contains(&(way / 10.0))
+                );
+            }
+        }
+    }
 }
