@@ -137,8 +137,8 @@ pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> De
     Deviations { chance: of(covariance + stretches), contradiction: of(kinds + drives) }
 }
 
-/// What stretches of time, kinds of evidence, and drives pull at, of those that hold any: what nothing was measured of pulls
-/// nowhere because it says nothing, and not because it agrees.
+/// What stretches of time, kinds of evidence, and drives pull at, of those that hold any: what nothing was measured of
+/// pulls nowhere because it says nothing, and not because it agrees.
 fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 3] {
     let of_stretch = |stretch: usize| (0..KINDS).map(move |kind| (stretch, kind));
     let stretches = slopes.len();
