@@ -143,9 +143,7 @@ fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 3] {
     let of_stretch = |stretch: usize| (0..KINDS).map(move |kind| (stretch, kind));
     let stretches = slopes.len();
     let of_kind = |kind: usize| (0..stretches).map(move |stretch| (stretch, kind));
-    let of_drive = |drive: usize| {
-        (drive * STRETCHES..(drive + 1) * STRETCHES).flat_map(move |stretch| of_stretch(stretch))
-    };
+    let of_drive = |drive: usize| (drive * STRETCHES..(drive + 1) * STRETCHES).flat_map(of_stretch);
     let is_observed = |(stretch, kind): &(usize, usize)| observed[*stretch][*kind];
     let sum = |parts: Vec<(usize, usize)>| {
         let found = parts.into_iter().filter(is_observed).map(|(stretch, kind)| slopes[stretch][kind]);
