@@ -87,7 +87,7 @@ pub(super) fn uneven(name: &str, times: &[i64]) -> Option<Verdict> {
         median(&steps.iter().map(|step| (step - usual).abs()).collect::<Vec<_>>())
     });
     let aside = of_modes.chain([aside]).flatten().min_by(f64::total_cmp)?;
-    if aside < UNEVEN.0 * usual || aside < UNEVEN.1 {
+    if aside < UNEVEN.0 * usual || aside < UNEVEN.1 || is_even_with_gaps(&steps) {
         return None;
     }
     let evidence = format!(
@@ -97,6 +97,19 @@ pub(super) fn uneven(name: &str, times: &[i64]) -> Option<Verdict> {
     );
     let remedy = Remedy::LookInto("are they times of arrival? Those of the measurement are expected");
     Some(Verdict::doubt(name, Question::Bounds, evidence, Some(remedy)))
+}
+
+/// Whether all is even by the shortest steps: of scans most of which were lost.
+fn is_even_with_gaps(steps: &[f64]) -> bool {
+    let mut sorted = steps.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let shortest = sorted[sorted.len() / 10];
+    sorted.retain(|step| *step < 1.5 * shortest);
+    let beat = median(&sorted).filter(|beat| SPACING.contains(beat));
+    beat.is_some_and(|beat| {
+        let aside = |step: &f64| (step - beat * (step / beat).round()).abs();
+        median(&steps.iter().map(aside).collect::<Vec<_>>()).is_some_and(|aside| aside < UNEVEN.0 * beat)
+    })
 }
 
 /// Measurements that have the time of the one before: no sensor measures twice at once.
@@ -140,5 +153,10 @@ mod tests {
         assert_eq!(uneven("radar", &at(|scan| 100 * scan + scan % 7)), None, "a scheduler's few ms");
         assert_eq!(uneven("radar", &at(|scan| 100 * scan + 30 * (scan % 2))), None, "two modes in turn");
         assert_eq!(uneven("radar", &at(|scan| 100 * (scan + scan / 5))), None, "scans are lost");
+        let kept = |scan: i64| 100 * (scan * 5 / 2 + scan * scan * 17 % 3) + scan % 4;
+        let mut most_lost = at(kept);
+        most_lost.sort_unstable();
+        most_lost.dedup();
+        assert_eq!(uneven("radar", &most_lost), None, "most scans are lost");
     }
 }

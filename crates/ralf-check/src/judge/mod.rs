@@ -38,8 +38,8 @@ pub use refine::Refinement;
 pub fn check_and_refine(sources: &[&dyn Source]) -> (Vec<SequenceCheck>, Vec<Refinement>) {
     let samples: Vec<Sample> = sources.iter().map(|source| Sample::in_rows(*source)).collect();
     let judged = sources.iter().zip(&samples).map(|(source, sample)| judge(*source, sample));
-    let (checked, cases): (Vec<_>, Vec<_>) = judged.unzip();
-    (checked, refine::refine(&cases))
+    let (checked, mut cases): (Vec<_>, Vec<_>) = judged.unzip();
+    (checked, refine::refine(&mut cases))
 }
 
 /// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the

@@ -19,6 +19,8 @@ const OTHER_SIGN: f64 = 1.3;
 /// Elevations that say something have so many times as many as high as low things, and on the road, as those of other
 /// detections: right recordings from 0.98 and 3 on, noise 1.0 and 1.1. Both are asked.
 const TELLS: (f64, f64) = (1.1, 1.5);
+/// Elevations that are told to be no surer than this say as little of heights as noise, rad.
+const SURE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 /// Elevations of others would have more than this, where all lie in a plane.
 const MOST: f64 = 0.6;
 
@@ -42,7 +44,9 @@ fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
         return Some(Verdict::cannot_judge(&sensor.name, Question::Lidar, missing));
     }
     let now = as_high(case, radar, &SensorChange::default());
-    if let Some(found) = is_upside_down(case, radar).or_else(|| says_nothing(case, radar, &now)) {
+    let is_sure = sensor.sigma_elevation <= SURE;
+    let idle = || is_sure.then(|| idle(case, radar, &now)).flatten();
+    if let Some(found) = upside_down(case, radar).or_else(idle) {
         let remedy = Some(Remedy::LookInto(found.what));
         return Some(Verdict::doubt(&sensor.name, Question::Lidar, found.evidence, remedy));
     }
@@ -51,8 +55,8 @@ fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
     Some(Verdict::doubt(&sensor.name, Question::Lidar, evidence, Some(Remedy::Sensor(found))))
 }
 
-/// Elevations that are something else.
-struct Misread {
+/// What else elevations may be.
+struct Elsewise {
     what: &'static str,
     evidence: String,
 }
@@ -70,7 +74,7 @@ fn as_high_in_words(now: &Tally, then: &Tally) -> String {
 }
 
 /// An elevation that says nothing of how high things are, nor of where the road is.
-fn says_nothing(case: &Case, radar: usize, now: &Tally) -> Option<Misread> {
+fn idle(case: &Case, radar: usize, now: &Tally) -> Option<Elsewise> {
     let is_idle = |now: &Tally, measure: Measure, tells: f64| {
         let then = read(case, radar, measure, with_elevations_of_others);
         let is_idle = now.is_enough() && then.share() < MOST && now.share() < tells * then.share();
@@ -79,15 +83,15 @@ fn says_nothing(case: &Case, radar: usize, now: &Tally) -> Option<Misread> {
     let then = is_idle(now, Measure::AsHigh, TELLS.0)?;
     is_idle(&case.overlap(radar, &SensorChange::default(), Measure::OnRoad), Measure::OnRoad, TELLS.1)?;
     let what = "its elevation looks like another field: else elevation = \"none\" in the rig";
-    Some(Misread { what, evidence: as_high_in_words(now, &then) })
+    Some(Elsewise { what, evidence: as_high_in_words(now, &then) })
 }
 
 /// An elevation that has the other sign: clutter of the road lies above it, and no pitch brings it down.
-fn is_upside_down(case: &Case, radar: usize) -> Option<Misread> {
+fn upside_down(case: &Case, radar: usize) -> Option<Elsewise> {
     let pitched = |pitch: f64| case.overlap(radar, &SensorChange::tilt(0.0, pitch), Measure::OnRoad);
     let now = pitched(0.0);
-    let upside_down = |look: &RadarLook| look.read_otherwise(|p| Point::new(p.x, p.y, -p.z));
-    let then = read(case, radar, Measure::OnRoad, upside_down);
+    let other_sign = |look: &RadarLook| look.read_otherwise(|p| Point::new(p.x, p.y, -p.z));
+    let then = read(case, radar, Measure::OnRoad, other_sign);
     let is_better = now.is_beaten_by_factor(&then, OTHER_SIGN)
         && TILTS.into_iter().all(|pitch| pitched(pitch).share() < then.share());
     let evidence = format!(
@@ -95,7 +99,7 @@ fn is_upside_down(case: &Case, radar: usize) -> Option<Misread> {
         now.share() * 100.0,
         then.share() * 100.0
     );
-    is_better.then_some(Misread { what: "its elevation (or z) looks as if it had the other sign", evidence })
+    is_better.then_some(Elsewise { what: "its elevation (or z) looks as if it had the other sign", evidence })
 }
 
 fn read(case: &Case, radar: usize, measure: Measure, otherwise: impl Fn(&RadarLook) -> RadarLook) -> Tally {

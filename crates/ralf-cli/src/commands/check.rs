@@ -14,7 +14,8 @@ use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
 use ralf_data::SequenceReader;
 use std::path::{Path, PathBuf};
 
-/// Corrections come from so many sequences of a recording at most: what was read of them is kept at once.
+/// Corrections come from so many sequences of a recording at most, over the number of its LiDARs: what was read of them
+/// is kept at once.
 const REFINED: usize = 8;
 
 /// Arguments of `ralf check`.
@@ -87,7 +88,9 @@ fn judged(
     sequences: &[Box<dyn SequenceReader>],
     with_corrections: bool,
 ) -> (Vec<SequenceCheck>, Vec<Refinement>) {
-    let refining = if with_corrections { sequences.len().min(REFINED) } else { 0 };
+    let lidars = sequences.iter().map(|source| source.sequence().rig.lidars.len()).max().unwrap_or(0);
+    let most = (REFINED / lidars.max(1)).max(1);
+    let refining = if with_corrections { sequences.len().min(most) } else { 0 };
     let is_refined = |i: usize| (0..refining).any(|part| part * sequences.len() / refining == i);
     let some = (0..sequences.len()).filter(|i| is_refined(*i)).map(|i| sequences[i].as_ref() as &dyn Source);
     let (checked, refined) = check_and_refine(&some.collect::<Vec<_>>());

@@ -65,7 +65,7 @@ fn by_range_rates(
     let told: Vec<_> = looks.iter().filter_map(|look| Some((look.scan, look.fit?))).collect();
     let told: Vec<_> = told.into_iter().filter(|(_, fit)| fit.inliers >= TRUSTED).collect();
     let one = |order: Order| {
-        let files = order.files(times.len());
+        let files = order.of(times.len()).files;
         let aside = told.iter().filter(|(scan, _)| times[files[*scan]].abs_diff(times[*scan]) > ASIDE_NS);
         let misfit = |t_ns: i64, velocity: Vector2<f64>| {
             (predicted(motion, &sensor.vehicle_from_radar, t_ns) - velocity).norm().min(CAP)

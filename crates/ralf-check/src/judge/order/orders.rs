@@ -3,7 +3,7 @@
 use crate::remedy::{AS_TEXT, BACKWARDS};
 
 /// How files lie that should be in the order of time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Order {
     /// By their numbers as text, the first of which is this: 0, 1, 10, 11, 2.
     Text(usize),
@@ -11,24 +11,27 @@ pub(super) enum Order {
     Backwards,
 }
 
+/// Files in an order.
+pub(super) struct Ordered {
+    /// Which is at each place.
+    pub(super) files: Vec<usize>,
+    /// At which place each is.
+    pub(super) places: Vec<usize>,
+}
+
 impl Order {
     pub(super) const ALL: [Self; 3] = [Self::Text(0), Self::Text(1), Self::Backwards];
 
-    /// Of so many files, which is at each place.
-    pub(super) fn files(self, count: usize) -> Vec<usize> {
+    /// So many files in this order.
+    pub(super) fn of(self, count: usize) -> Ordered {
         let mut files: Vec<usize> = (0..count).collect();
         match self {
-            Self::Text(first) => files.sort_by_key(|file| (file + first).to_string()),
+            Self::Text(first) => files.sort_by_cached_key(|file| (file + first).to_string()),
             Self::Backwards => files.reverse(),
         }
-        files
-    }
-
-    /// Of so many files, at which place each is.
-    pub(super) fn places(self, count: usize) -> Vec<usize> {
         let mut places = vec![0; count];
-        self.files(count).into_iter().enumerate().for_each(|(place, file)| places[file] = place);
-        places
+        files.iter().enumerate().for_each(|(place, file)| places[*file] = place);
+        Ordered { files, places }
     }
 
     pub(super) fn remedy(self) -> &'static str {
@@ -45,16 +48,16 @@ mod tests {
 
     #[test]
     fn numbers_as_text_come_after_their_first_digits() {
-        assert_eq!(Order::Text(0).files(12), [0, 1, 10, 11, 2, 3, 4, 5, 6, 7, 8, 9]);
+        assert_eq!(Order::Text(0).of(12).files, [0, 1, 10, 11, 2, 3, 4, 5, 6, 7, 8, 9]);
         // 1, 10, 11, 12, 2 ...
-        assert_eq!(Order::Text(1).files(12), [0, 9, 10, 11, 1, 2, 3, 4, 5, 6, 7, 8]);
-        assert_eq!(Order::Backwards.files(3), [2, 1, 0]);
+        assert_eq!(Order::Text(1).of(12).files, [0, 9, 10, 11, 1, 2, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(Order::Backwards.of(3).files, [2, 1, 0]);
     }
 
     #[test]
     fn a_file_is_found_at_its_place() {
         for order in Order::ALL {
-            let (files, places) = (order.files(120), order.places(120));
+            let Ordered { files, places } = order.of(120);
             assert!((0..120).all(|file| files[places[file]] == file), "{order:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! Radar scans beside LiDAR scans, as recorded and in another order.
 
 use super::ASIDE_NS;
-use super::orders::Order;
+use super::orders::{Order, Ordered};
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Setup, TOGETHER_NS, Tally, of_moment};
 use crate::sample::{LidarLook, RadarLook, Sample, nearest};
@@ -17,6 +17,9 @@ pub(super) enum Of {
     Both,
 }
 
+/// A few of the moments are every so manyth.
+const FEW: usize = 4;
+
 /// What was read of a recording, and what else is.
 pub(super) struct Scans<'a> {
     pub(super) source: &'a dyn Source,
@@ -24,6 +27,8 @@ pub(super) struct Scans<'a> {
     motion: &'a EgoMotion,
     /// Of each radar, the order that was found.
     pub(super) found: Vec<Option<Order>>,
+    /// By order and number of files.
+    ordered: BTreeMap<(Order, usize), Ordered>,
     /// By radar and scan; none of those that can't be read.
     read: BTreeMap<(usize, usize), Option<RadarLook>>,
 }
@@ -42,13 +47,35 @@ impl<'a> Scans<'a> {
         motion: &'a EgoMotion,
         found: Vec<Option<Order>>,
     ) -> Self {
-        Self { source, sample, motion, found, read: BTreeMap::new() }
+        let times = &source.sequence().times;
+        let counts = times.radars.iter().chain(&times.lidars).map(Vec::len);
+        let all = counts.flat_map(|count| Order::ALL.map(|order| (order, count)));
+        let ordered = all.map(|(order, count)| ((order, count), order.of(count))).collect();
+        Self { source, sample, motion, found, ordered, read: BTreeMap::new() }
     }
 
-    /// Tallies of radars beside LiDARs as recorded and in another order: of moments at which this is another.
+    /// Tallies of radars beside LiDARs as recorded and in another order: of moments at which this is another. Where a
+    /// few of them show nothing better the others are not read.
     pub(super) fn tallies(&mut self, order: Order, of: Of, radars: &[usize], lidars: &[usize]) -> [Tally; 2] {
+        let [now, then] = self.of_every(FEW, order, of, radars, lidars);
+        if then.share() <= now.share() {
+            return [now, then];
+        }
+        self.of_every(1, order, of, radars, lidars)
+    }
+
+    /// The same of every so manyth LiDAR scan.
+    fn of_every(
+        &mut self,
+        every: usize,
+        order: Order,
+        of: Of,
+        radars: &[usize],
+        lidars: &[usize],
+    ) -> [Tally; 2] {
         let mut tallies = [Tally::default(), Tally::default()];
-        for look in self.sample.lidars.iter().filter(|look| lidars.contains(&look.lidar)) {
+        let looks = self.sample.lidars.iter().filter(|look| lidars.contains(&look.lidar));
+        for look in looks.step_by(every) {
             for radar in radars {
                 let pairs = [self.recorded(*radar, look), self.in_order(order, of, *radar, look)];
                 let [Some(now), Some(then)] = pairs else { continue };
@@ -68,7 +95,7 @@ impl<'a> Scans<'a> {
     fn recorded(&self, radar: usize, look: &LidarLook) -> Option<Pair> {
         let times = &self.source.sequence().times.radars[radar];
         let near = nearest(times, look.t_ns)?;
-        let file = self.found[radar].map_or(near, |order| order.places(times.len())[near]);
+        let file = self.found[radar].map_or(near, |order| self.ordered(order, times.len()).places[near]);
         let pair = Pair { file, radar_ns: times[near], lidar_ns: look.t_ns };
         pair.is_together().then_some(pair)
     }
@@ -79,16 +106,20 @@ impl<'a> Scans<'a> {
         let [of_radar, of_lidar] = [&times.radars[radar], &times.lidars[look.lidar]];
         let lidar_ns = match of {
             Of::Radars => look.t_ns,
-            Of::Lidar | Of::Both => of_lidar[order.files(of_lidar.len())[look.scan]],
+            Of::Lidar | Of::Both => of_lidar[self.ordered(order, of_lidar.len()).files[look.scan]],
         };
         let near = nearest(of_radar, lidar_ns)?;
         let of_files = match of {
             Of::Lidar => self.found[radar],
             Of::Radars | Of::Both => Some(order),
         };
-        let file = of_files.map_or(near, |order| order.places(of_radar.len())[near]);
+        let file = of_files.map_or(near, |order| self.ordered(order, of_radar.len()).places[near]);
         let pair = Pair { file, radar_ns: of_radar[near], lidar_ns };
         pair.is_together().then_some(pair)
+    }
+
+    fn ordered(&self, order: Order, count: usize) -> &Ordered {
+        &self.ordered[&(order, count)]
     }
 
     /// Whether two files of a radar were measured at clearly different times.

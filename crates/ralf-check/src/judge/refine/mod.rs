@@ -44,31 +44,35 @@ pub struct Refinement {
     /// What is proposed: quantities that are three standard deviations of chance, two of [`Self::deviations`], and more
     /// than labels notice, and the likeliest of these with all others left alone.
     pub proposed: SensorChange,
+    /// The sequences that it is of, by name, where not all have the sensor mounted alike.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub only_of: Option<Vec<String>>,
 }
 
-/// The corrections of all radars that can be refined; a LiDAR's and an unrefined one's are those that were found, in
-/// more drives than not.
-pub(super) fn refine(cases: &[Case]) -> Vec<Refinement> {
-    let lidars = names(cases, |case| case.sequence.rig.lidars.iter().map(|lidar| &lidar.name).collect());
-    let lidars = lidars.into_iter().filter_map(|name| {
-        let change_of = |case: &Case| {
-            let lidar = case.sequence.rig.lidars.iter().position(|lidar| lidar.name == *name)?;
-            Some(case.lidar_changes[lidar])
-        };
-        let change = common(&cases.iter().filter_map(change_of).collect::<Vec<_>>());
-        (change != SensorChange::default()).then(|| as_found(name, change))
-    });
+/// The corrections of all LiDARs, as they were found in more drives than not, and with these in place of all radars.
+pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
+    let mut refined = Vec::new();
+    for name in names(cases, |case| case.sequence.rig.lidars.iter().map(|lidar| &lidar.name).collect()) {
+        let number = |case: &Case| case.sequence.rig.lidars.iter().position(|lidar| lidar.name == name);
+        let found = cases.iter().filter_map(|case| Some(case.lidar_changes[number(case)?]));
+        let change = common(&found.collect::<Vec<_>>());
+        for case in &mut *cases {
+            number(case).into_iter().for_each(|lidar| case.lidar_changes[lidar] = change);
+        }
+        refined.push(as_found(&name, change));
+    }
     let radars =
         names(cases, |case| case.radars().map(|radar| &case.sequence.rig.radars[radar].name).collect());
-    lidars.chain(radars.into_iter().map(|name| of_radar(cases, name))).collect()
+    refined.extend(radars.iter().map(|name| of_radar(cases, name)));
+    refined
 }
 
 /// Names of sensors, each once, in the order of the rigs.
-fn names<'a>(cases: &'a [Case], of: impl Fn(&'a Case<'a>) -> Vec<&'a String>) -> Vec<&'a String> {
+fn names<'a>(cases: &'a [Case], of: impl Fn(&'a Case<'a>) -> Vec<&'a String>) -> Vec<String> {
     let mut names = Vec::new();
     for name in cases.iter().flat_map(of) {
-        if !names.contains(&name) {
-            names.push(name);
+        if !names.contains(name) {
+            names.push(name.clone());
         }
     }
     names
@@ -93,35 +97,51 @@ fn is_alike_besides(a: &SensorChange, b: &SensorChange) -> bool {
 
 /// A sensor's change as it was found.
 fn as_found(name: &str, change: SensorChange) -> Refinement {
-    Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
+    Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change, only_of: None }
 }
 
-/// A radar's, from the drives in which it is mounted as in the first.
+/// A radar's, from the drives in which it is mounted as in most.
 fn of_radar(cases: &[Case], name: &str) -> Refinement {
     let radar_of = |case: &Case| case.radars().find(|radar| case.name(*radar) == name);
-    let mut all: Vec<(&Case, usize)> =
-        cases.iter().filter_map(|case| Some((case, radar_of(case)?))).collect();
-    let mount = |(case, radar): &(&Case, usize)| case.sequence.rig.radars[*radar].vehicle_from_radar;
-    let first = mount(&all[0]);
-    all.retain(|own| is_mounted_alike(&mount(own), &first));
-    let changes: Vec<SensorChange> = all.iter().map(|(case, radar)| case.radar_changes[*radar]).collect();
-    let base = common(&changes);
-    let telling: Vec<(&Case, usize)> = all
-        .into_iter()
-        .filter(|(case, radar)| is_alike_besides(&case.radar_changes[*radar], &base) && tells(case, *radar))
-        .collect();
+    let all: Vec<(&Case, usize)> = cases.iter().filter_map(|case| Some((case, radar_of(case)?))).collect();
+    let alike = mounted_alike(&all);
+    let only_of =
+        (alike.len() < all.len()).then(|| alike.iter().map(|(case, _)| case.sequence.name.clone()).collect());
+    Refinement { only_of, ..of_drives(&alike, name) }
+}
+
+/// From drives of one mounting: those in which the LiDARs see what the radar sees, and something can be judged.
+fn of_drives(drives: &[(&Case, usize)], name: &str) -> Refinement {
+    let changes = |drives: &[(&Case, usize)]| -> Vec<SensorChange> {
+        drives.iter().map(|(case, radar)| case.radar_changes[*radar]).collect()
+    };
+    let mut telling = drives.to_vec();
+    telling.retain(|drive| tells(drive.0, drive.1) && judgeable(drive).contains(&true));
+    let base = common(&changes(if telling.is_empty() { drives } else { &telling }));
+    telling.retain(|(case, radar)| is_alike_besides(&case.radar_changes[*radar], &base));
     if telling.is_empty() {
         return as_found(name, base);
     }
     let evidence = Evidence::of(&telling, base);
-    let (open, values) = found(&evidence, judgeable(&telling));
+    let all: Vec<Open> = telling.iter().map(judgeable).collect();
+    let (open, values) = found(&evidence, std::array::from_fn(|i| all.iter().any(|open| open[i])));
     let deviations = deviations(&evidence, &values, open);
     Refinement {
-        name: name.to_owned(),
         change: evidence.change(&values),
         deviations: std::array::from_fn(|i| told(&deviations, i)),
         proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
+        ..as_found(name, base)
     }
+}
+
+/// The most drives in which a radar is mounted alike, of as many the first.
+fn mounted_alike<'a>(all: &[(&'a Case<'a>, usize)]) -> Vec<(&'a Case<'a>, usize)> {
+    let mount = |(case, radar): &(&Case, usize)| case.sequence.rig.radars[*radar].vehicle_from_radar;
+    let like = |own: &(&'a Case<'a>, usize)| -> Vec<(&'a Case<'a>, usize)> {
+        all.iter().copied().filter(|other| is_mounted_alike(&mount(own), &mount(other))).collect()
+    };
+    let groups = all.iter().map(like);
+    groups.rev().max_by_key(Vec::len).unwrap_or_default()
 }
 
 /// Drives with one calibration: what is written down is rounded.
@@ -200,19 +220,15 @@ fn without(evidence: &Evidence, values: &Values, mut open: Open, quantity: usize
     likeliest(evidence, &start, open)
 }
 
-/// Which quantities can be judged, in any drive: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock
-/// by the LiDAR or by speeds that change.
-fn judgeable(drives: &[(&Case, usize)]) -> Open {
-    let of_drive = |(case, radar): &(&Case, usize)| {
-        let by_lidar = case.overlap(*radar, &SensorChange::default(), Measure::Beside).is_enough();
-        let mount = case.mount(*radar);
-        let figures = case.doppler(*radar, &case.motion, &mount);
-        let timed = figures.and_then(|figures| clock(&case.fits[*radar], &case.motion, &mount, &figures));
-        let by_speeds = timed.is_some_and(|clock| clock.is_sharp);
-        [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || by_speeds]
-    };
-    let all: Vec<Open> = drives.iter().map(of_drive).collect();
-    std::array::from_fn(|i| all.iter().any(|open| open[i]))
+/// Which quantities can be judged in a drive: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by
+/// the LiDAR or by speeds that change.
+fn judgeable((case, radar): &(&Case, usize)) -> Open {
+    let by_lidar = case.overlap(*radar, &SensorChange::default(), Measure::Beside).is_enough();
+    let mount = case.mount(*radar);
+    let figures = case.doppler(*radar, &case.motion, &mount);
+    let timed = figures.and_then(|figures| clock(&case.fits[*radar], &case.motion, &mount, &figures));
+    let by_speeds = timed.is_some_and(|clock| clock.is_sharp);
+    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || by_speeds]
 }
 
 #[cfg(test)]

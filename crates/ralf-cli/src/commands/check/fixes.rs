@@ -3,9 +3,9 @@
 mod totals;
 
 use ralf::config::ConfigError;
-use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State, Verdict};
+use ralf_check::{Question, Refinement, Remedy, SensorChange, SequenceCheck, Setting, State, Verdict};
 use ralf_data::Settings;
-use totals::{Line, Lines, Totals};
+use totals::{Line, Lines, TOLD, totals};
 
 /// The text of the file: remedies of what is doubted, and refined corrections of the radars, with those that the
 /// recording was read with. A later settings file wins over an earlier one, key by key: the whole is told.
@@ -19,8 +19,8 @@ pub(crate) fn text(
          # Corrections are added to what the recording says; ralf label takes them with a --config of their own.\n",
     );
     let lines = proposed(checks, refined);
-    let is_proposed = lines.keys().any(|key| !key.starts_with('#'));
-    Totals::of(lines, given)?.iter().for_each(|(key, line)| {
+    let is_proposed = lines.keys().any(|key| !key.starts_with(TOLD));
+    totals(lines, given)?.iter().for_each(|(key, line)| {
         text += &format!("{key} = {}{}\n", line.value, line.note);
     });
     if !is_proposed {
@@ -32,27 +32,30 @@ pub(crate) fn text(
 /// What is proposed besides what was given, by key. Keys of what is only told begin with `#`.
 fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
     let mut lines = Lines::new();
-    for check in checks {
-        let doubted =
-            check.verdicts.iter().filter(|verdict| matches!(verdict.state, State::Doubt | State::Fact));
-        for (verdict, remedy) in doubted.filter_map(|verdict| Some((verdict, verdict.remedy.as_ref()?))) {
-            let known = refined.iter().any(|refinement| refinement.name == verdict.subject);
-            // A sensor's own change is told by its refinement.
-            if !(known && matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))) {
-                let denied = denied(checks, verdict);
-                for Setting { key, value } in remedy.settings(&verdict.subject) {
-                    let key = if denied.is_some() { format!("# {key}") } else { key };
-                    add(&mut lines, Setting { key, value }, denied.as_deref().unwrap_or_default());
-                }
+    for refinement in refined {
+        let height = height_of(checks, &refinement.name);
+        for (setting, note) in settings(refinement, height) {
+            add(&mut lines, setting, &note, refinement.only_of.is_some());
+        }
+    }
+    for verdict in doubted(checks) {
+        let known = refined.iter().any(|refinement| refinement.name == verdict.subject);
+        // A sensor's own change is told by its refinement.
+        let Some(remedy) = verdict.remedy.as_ref() else { continue };
+        if !(known && matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))) {
+            let denied = denied(checks, verdict);
+            for setting in remedy.settings(&verdict.subject) {
+                add(&mut lines, setting, denied.as_deref().unwrap_or_default(), denied.is_some());
             }
         }
     }
-    for refinement in refined {
-        for (setting, deviation) in settings(refinement) {
-            add(&mut lines, setting, &deviation);
-        }
-    }
     lines
+}
+
+/// What has a remedy if anything has, of all sequences.
+fn doubted(checks: &[SequenceCheck]) -> impl Iterator<Item = &Verdict> {
+    let verdicts = checks.iter().flat_map(|check| &check.verdicts);
+    verdicts.filter(|verdict| matches!(verdict.state, State::Doubt | State::Fact))
 }
 
 /// Settings are those of all sequences: what is doubted in some of them is not proposed, but told, where it is in order
@@ -60,15 +63,32 @@ fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
 fn denied(checks: &[SequenceCheck], doubt: &Verdict) -> Option<String> {
     let is_said = |check: &SequenceCheck, state: State| {
         check.verdicts.iter().any(|verdict| {
-            (&verdict.subject, verdict.question, verdict.state) == (&doubt.subject, doubt.question, state)
+            let is_asked = verdict.subject == doubt.subject || is_of_motion(doubt);
+            is_asked && (verdict.question, verdict.state) == (doubt.question, state)
         })
     };
-    let names = |state: State| -> Vec<&str> {
-        checks.iter().filter(|check| is_said(check, state)).map(|check| check.name.as_str()).collect()
+    let names = |which: &dyn Fn(&SequenceCheck) -> bool| -> Vec<&str> {
+        checks.iter().filter(|check| which(check)).map(|check| check.name.as_str()).collect()
     };
-    let (doubted, good) = (names(doubt.state), names(State::Good));
+    let doubted = names(&|check| is_said(check, doubt.state));
+    let good = names(&|check| is_said(check, State::Good) && !is_said(check, doubt.state));
     let told = || format!("    # in {}; in order in {}", doubted.join(", "), good.join(", "));
     (good.len() >= doubted.len() && !good.is_empty()).then(told)
+}
+
+/// The motion's clock is in order where radars' are.
+fn is_of_motion(doubt: &Verdict) -> bool {
+    doubt.question == Question::Clock && matches!(doubt.remedy, Some(Remedy::MotionClock(_)))
+}
+
+/// The height that is missing of a sensor, m, by what stands on the ground.
+fn height_of(checks: &[SequenceCheck], name: &str) -> f64 {
+    let own = doubted(checks).filter(|verdict| verdict.subject == name && denied(checks, verdict).is_none());
+    let heights = own.filter_map(|verdict| match &verdict.remedy {
+        Some(Remedy::Sensor(change)) => Some(change.shift_m[2]),
+        _ => None,
+    });
+    heights.into_iter().find(|height| *height != 0.0).unwrap_or(0.0)
 }
 
 /// Roll, pitch and height are found by other means than the refinement's.
@@ -76,13 +96,18 @@ fn is_vertical(change: &SensorChange) -> bool {
     change.turn_deg[0] != 0.0 || change.turn_deg[1] != 0.0 || change.shift_m[2] != 0.0
 }
 
-fn add(lines: &mut Lines, Setting { key, value }: Setting, note: &str) {
+/// Of several values of a key the first one stands.
+fn add(lines: &mut Lines, Setting { key, value }: Setting, note: &str, is_told: bool) {
+    let key = if is_told { format!("{TOLD}{key}") } else { key };
     lines.entry(key).or_insert_with(|| Line { value, note: note.to_owned() });
 }
 
-/// What a refinement proposes, each with its standard deviation as a comment.
-fn settings(refinement: &Refinement) -> Vec<(Setting, String)> {
-    let SensorChange { turn_deg, shift_m, clock_ms, mirrored } = refinement.proposed;
+/// What a refinement proposes, and a height that was found besides, each with its standard deviation as a comment.
+fn settings(refinement: &Refinement, height: f64) -> Vec<(Setting, String)> {
+    let SensorChange { turn_deg, mut shift_m, clock_ms, mirrored } = refinement.proposed;
+    if shift_m[2] == 0.0 {
+        shift_m[2] = height;
+    }
     let rounded = |value: f64, digits: f64| (value * digits).round() / digits;
     let nothing = SensorChange::default();
     let turned = SensorChange { turn_deg: turn_deg.map(|value| rounded(value, 100.0)), ..nothing };
@@ -103,8 +128,11 @@ fn settings(refinement: &Refinement) -> Vec<(Setting, String)> {
     settings
 }
 
-/// Standard deviations, as a comment; nothing where there are none.
+/// Standard deviations, as a comment, or whose alone it is; nothing where there is neither.
 fn note(refinement: &Refinement, which: &[usize], unit: &str) -> String {
+    if let Some(names) = &refinement.only_of {
+        return format!("    # of {} alone: it is mounted otherwise in others", names.join(", "));
+    }
     if which.iter().any(|i| refinement.deviations[*i].is_nan()) {
         return String::new();
     }
@@ -142,7 +170,13 @@ mod tests {
 
     fn turned(name: &str, yaw: f64) -> Refinement {
         let change = SensorChange { turn_deg: [0.0, 0.0, yaw], ..SensorChange::default() };
-        Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
+        Refinement {
+            name: name.to_owned(),
+            change,
+            deviations: [f64::NAN; 4],
+            proposed: change,
+            only_of: None,
+        }
     }
 
     #[test]
@@ -159,11 +193,77 @@ mod tests {
         let again = super::text(&[], &[], &given).unwrap();
         assert_eq!(Settings::from_toml(&again, &[]).unwrap(), given);
         assert!(again.ends_with("# Nothing is proposed.\n"), "{again}");
-        // And what takes it back takes its line away.
+        // And what takes it back is told: read after the file that said it, it wins.
         let back = super::text(&[], &[turned("a", -5.96)], &given).unwrap();
-        assert_eq!(
-            Settings::from_toml(&back, &[]).unwrap().corrections.get("a").copied().unwrap_or_default(),
-            Default::default()
+        assert!(back.contains("\ncorrections.a.add_yaw_deg = 0.0\n"), "{back}");
+    }
+
+    #[test]
+    fn what_was_given_of_a_sensor_is_said_again() {
+        let given = Settings::from_toml("sensors.\"a b\".fov_azimuth_deg = 120.0", &[]).unwrap();
+        let again = super::text(&[], &[], &given).unwrap();
+        assert!(again.contains("\nsensors.\"a b\".fov_azimuth_deg = 120.0    # as given\n"), "{again}");
+        assert_eq!(Settings::from_toml(&again, &[]).unwrap(), given);
+    }
+
+    fn doubt(subject: &str, question: Question, remedy: Remedy) -> Verdict {
+        let (subject, evidence, remedy) = (subject.to_owned(), String::new(), Some(remedy));
+        Verdict { subject, question, state: State::Doubt, evidence, remedy }
+    }
+
+    fn in_order(subject: &str, question: Question) -> Verdict {
+        let (state, remedy) = (State::Good, None);
+        Verdict { state, remedy, ..doubt(subject, question, Remedy::Speed(1.0)) }
+    }
+
+    fn with(name: &str, verdicts: Vec<Verdict>) -> SequenceCheck {
+        SequenceCheck { name: name.to_owned(), verdicts, figures: Vec::new() }
+    }
+
+    #[test]
+    fn a_pitch_is_proposed_where_the_plan_is_in_order() {
+        let pitch = SensorChange { turn_deg: [0.0, 3.0, 0.0], ..SensorChange::default() };
+        let question = Question::Lidar;
+        let verdicts = vec![doubt("a", question, Remedy::Sensor(pitch)), in_order("a", question)];
+        let text = text(&[with("00", verdicts)], &[turned("a", 0.0)]);
+        assert!(text.contains("\ncorrections.a.add_pitch_deg = 3.0\n"), "{text}");
+    }
+
+    #[test]
+    fn a_height_and_a_place_are_one_translation() {
+        let [low, ahead] = [[0.0, 0.0, -0.3], [0.5, 0.0, 0.0]]
+            .map(|shift_m| SensorChange { shift_m, ..SensorChange::default() });
+        let verdicts = vec![doubt("a", Question::Ground, Remedy::Sensor(low))];
+        let refined = Refinement { proposed: ahead, ..turned("a", 0.0) };
+        let text = text(&[with("00", verdicts.clone()), with("01", verdicts)], &[refined]);
+        assert!(text.contains("\ncorrections.a.add_translation = [0.5, 0.0, -0.3]\n"), "{text}");
+    }
+
+    #[test]
+    fn a_lidar_that_one_sequence_of_many_doubts_is_left_alone() {
+        let far = SensorChange { turn_deg: [0.0, 0.0, 39.0], ..SensorChange::default() };
+        let verdicts = vec![doubt("a", Question::Motion, Remedy::Sensor(far))];
+        let checks = [with("00", verdicts), with("01", Vec::new()), with("02", Vec::new())];
+        assert!(text(&checks, &[turned("a", 0.0)]).ends_with("# Nothing is proposed.\n"));
+    }
+
+    #[test]
+    fn the_clock_of_the_motion_is_denied_by_radars_that_keep_it() {
+        let late = vec![doubt("motion", Question::Clock, Remedy::MotionClock(-200.0))];
+        let good = || vec![in_order("a", Question::Clock)];
+        let text = text(&[with("00", late), with("01", good()), with("02", good())], &[]);
+        assert!(
+            text.contains("\n# motion.time_offset_ms = -200.0    # in 00; in order in 01, 02\n"),
+            "{text}"
         );
+    }
+
+    #[test]
+    fn what_is_mounted_otherwise_in_others_is_told_alone() {
+        let refined = Refinement { only_of: Some(vec!["00".into(), "02".into()]), ..turned("a", 2.0) };
+        let text = text(&[], &[refined]);
+        let line =
+            "\n# corrections.a.add_yaw_deg = 2.0    # of 00, 02 alone: it is mounted otherwise in others\n";
+        assert!(text.contains(line), "{text}");
     }
 }

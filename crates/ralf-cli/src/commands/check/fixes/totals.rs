@@ -1,6 +1,6 @@
 //! What is proposed and what was given, as one.
 
-use ralf::config::ConfigError;
+use ralf::config::{ConfigError, SensorOverride};
 use ralf_data::{MotionSettings, SensorCorrection, Settings};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -16,26 +16,23 @@ pub(super) struct Line {
 pub(super) type Lines = BTreeMap<String, Line>;
 
 /// How settings that are only told begin.
-const TOLD: &str = "# ";
+pub(super) const TOLD: &str = "# ";
+/// What is said of a value of which nothing is proposed.
+const AS_GIVEN: &str = "    # as given";
 
-/// Settings with what was given.
-pub(super) struct Totals;
-
-impl Totals {
-    /// Lines that say all: what is proposed besides what was given is put together with it, and what was given and
-    /// nothing is proposed of is said again.
-    pub(super) fn of(lines: Lines, given: &Settings) -> Result<Lines, ConfigError> {
-        let (told, open): (Lines, Lines) = lines.into_iter().partition(|(key, _)| key.starts_with(TOLD));
-        let mut all = together(&open, given)?;
-        for (key, line) in told {
-            let own = key[TOLD.len()..].to_owned();
-            let alone = Lines::from([(own.clone(), Line { value: line.value, note: String::new() })]);
-            if let Some(total) = together(&alone, given)?.remove(&own) {
-                all.insert(key, Line { note: line.note, ..total });
-            }
+/// Lines that say all: what is proposed besides what was given is put together with it, and what was given and nothing
+/// is proposed of is said again.
+pub(super) fn totals(lines: Lines, given: &Settings) -> Result<Lines, ConfigError> {
+    let (told, open): (Lines, Lines) = lines.into_iter().partition(|(key, _)| key.starts_with(TOLD));
+    let mut all = together(&open, given)?;
+    for (key, line) in told {
+        let own = key[TOLD.len()..].to_owned();
+        let alone = Lines::from([(own.clone(), Line { value: line.value, note: String::new() })]);
+        if let Some(total) = together(&alone, given)?.remove(&own) {
+            all.insert(key, Line { note: line.note, ..total });
         }
-        Ok(all)
     }
+    Ok(all)
 }
 
 fn together(open: &Lines, given: &Settings) -> Result<Lines, ConfigError> {
@@ -44,13 +41,18 @@ fn together(open: &Lines, given: &Settings) -> Result<Lines, ConfigError> {
     let mut all = Lines::new();
     for name in given.corrections.keys().chain(proposed.corrections.keys()) {
         let of = |settings: &Settings| settings.corrections.get(name).copied().unwrap_or_default();
-        let total = of(given).then(&of(&proposed));
+        let (given, proposed) = (of(given), of(&proposed));
         let prefix = format!("corrections.{}", ralf_check::toml_key(name));
-        put(&mut all, open, &prefix, &total, &SensorCorrection::default())?;
+        put(&mut all, open, &prefix, [&SensorCorrection::default(), &given, &given.then(&proposed)])?;
     }
     // Where the motion comes from is no correction of it.
-    let motion = MotionSettings::default().then(&given.motion).then(&proposed.motion);
-    put(&mut all, open, "motion", &motion, &MotionSettings::default())?;
+    let usual = MotionSettings::default();
+    let given_motion = usual.then(&given.motion);
+    put(&mut all, open, "motion", [&usual, &given_motion, &given_motion.then(&proposed.motion)])?;
+    for (name, sensor) in &given.method.sensors {
+        let prefix = format!("sensors.{}", ralf_check::toml_key(name));
+        put(&mut all, open, &prefix, [&SensorOverride::default(), sensor, sensor])?;
+    }
     let others =
         open.iter().filter(|(key, _)| !["corrections.", "motion."].iter().any(|own| key.starts_with(own)));
     all.extend(
@@ -59,23 +61,27 @@ fn together(open: &Lines, given: &Settings) -> Result<Lines, ConfigError> {
     Ok(all)
 }
 
-/// All values of a table that are not as they are by default.
+/// All values of a table that are not as they are by default, or were not: what takes back what was given is told, for
+/// a file that was given before says otherwise.
 fn put<T: Serialize>(
     all: &mut Lines,
     open: &Lines,
     prefix: &str,
-    total: &T,
-    usual: &T,
+    [usual, given, total]: [&T; 3],
 ) -> Result<(), ConfigError> {
     let table = |values: &T| Table::try_from(values).map_err(|error| ConfigError::Parse(error.to_string()));
-    let usual = table(usual)?;
+    let (usual, given) = (table(usual)?, table(given)?);
     for (key, value) in table(total)? {
         let value = rounded(value);
-        if usual.get(&key) != Some(&value) {
-            let key = format!("{prefix}.{key}");
-            let note = open.get(&key).map_or("    # as given", |line| &line.note).to_owned();
-            all.insert(key, Line { value: value.to_string(), note });
+        let was = given.get(&key).cloned().map(rounded);
+        let is_usual = |value: &Option<Value>| usual.get(&key) == value.as_ref();
+        if is_usual(&was) && is_usual(&Some(value.clone())) {
+            continue;
         }
+        let as_given = if was.as_ref() == Some(&value) { AS_GIVEN } else { "" };
+        let full = format!("{prefix}.{key}");
+        let note = open.get(&full).map_or(as_given, |line| &line.note).to_owned();
+        all.insert(full, Line { value: value.to_string(), note });
     }
     Ok(())
 }
