@@ -137,6 +137,27 @@ fn a_detection_lies_where_it_was_measured() {
     assert!((left.decimal("range").unwrap() - 9.1_f64.hypot(8.185)).abs() < 0.1);
 }
 
+/// A radar of x, y, z whose last field is called like a column that is computed elsewhere.
+#[test]
+fn a_range_that_is_told_beside_the_place_is_kept_and_moves_no_label() {
+    let [plain, told] = [Dataset::new(), Dataset::new()];
+    let strengths = labelled(&plain);
+    for name in ["range", "azimuth", "elevation"] {
+        told.put("sequence.toml", fs::read_to_string(plain.file("sequence.toml")).unwrap());
+        told.edit("sequence.toml", "\"rcs\"", &format!("\"{name}\""));
+        let out = told.beside(name);
+        ralf(["label", &told.path, "-o", &out, "--no-check"]).exits(0);
+        let rows = rows(format!("{out}/sequences/00/plausibility.parquet"));
+        assert_eq!(rows.len(), strengths.len());
+        for (row, strength) in rows.iter().zip(&strengths).filter(|(row, _)| row.radar() == "radar_front") {
+            assert_eq!(row.decimal(name), strength.decimal("rcs"), "{name}");
+            for column in ["x", "y", "z", "d_lm", "d_tr", "w_lm", "w_tr", "w_opt", "w"] {
+                assert_eq!(row.decimal(column), strength.decimal(column), "{name}: {column}");
+            }
+        }
+    }
+}
+
 #[test]
 fn label_files_say_1_or_99_as_the_table_does() {
     let dataset = Dataset::new();

@@ -138,9 +138,13 @@ impl ScanParts<'_> {
         }
     }
 
-    /// Place in the vehicle frame and as measured, or a further field as it is. A place is absent of a detection
-    /// without one, and a further field of a radar that doesn't have it.
+    /// Place in the vehicle frame and as measured, or a field as it is: a further one, or a range or an angle that the
+    /// recording tells beside x, y and z. A place is absent of a detection without one, and a further field of a radar
+    /// that doesn't have it.
     fn measured(&self, name: &str) -> Vec<f32> {
+        if let Some(told) = self.radar.told_beside_place(name) {
+            return self.scan.measured.columns[told].clone();
+        }
         let of: fn(&Detection, &Spherical) -> f64 = match name {
             "x" => |located, _| located.position.x,
             "y" => |located, _| located.position.y,

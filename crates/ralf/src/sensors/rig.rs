@@ -113,6 +113,16 @@ impl Radar {
         names.filter(|(_, name)| !COORDINATE_FIELDS.contains(name))
     }
 
+    /// The column of a range, azimuth or elevation that was measured and gives no place, for x, y and z do.
+    pub fn told_beside_place(&self, field: &str) -> Option<usize> {
+        let is_told = match field {
+            "range" | "azimuth" => true,
+            "elevation" => self.elevation == Elevation::Measured,
+            _ => false,
+        };
+        self.column("x").filter(|_| is_told).and_then(|_| self.column(field))
+    }
+
     /// The column of a field.
     pub fn column(&self, field: &str) -> Option<usize> {
         self.fields.iter().position(|name| name == field)
