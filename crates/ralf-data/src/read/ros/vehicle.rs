@@ -1,4 +1,5 @@
-//! A first guess of the vehicle's frame, where neither odometry nor a twist names it: by the tree of frames.
+//! A first guess of the vehicle's frame, by the tree of frames: where neither odometry nor a twist names it, and where
+//! they tell of a part of the vehicle, such as an IMU.
 
 use super::messages::Messages;
 use super::survey;
@@ -14,34 +15,39 @@ const WORLDS: [&str; 5] = ["earth", "map", "odom", "utm", "world"];
 /// So many messages of frames that move are looked at: they come again and again.
 const FIRST: usize = 100;
 
-/// Names the vehicle's frame with the tree of frames, if nothing else of these topics does, and says so.
+/// Names the vehicle's frame with the tree of frames, where the motion's own messages don't name it, and says so.
 pub(super) fn add(topics: &mut Topics, messages: &Messages) -> Option<String> {
-    if is_named(topics, messages) {
-        return None;
-    }
     let all = Frames::of(messages, topics);
-    let frame = all.vehicle()?;
+    let of_motion = frame_of_motion(topics, messages);
+    let frame = match &of_motion {
+        Some(part) => all.vehicle_of(part)?,
+        None => all.vehicle()?,
+    };
     let is_tree = |kind| move |topic: &&mut TopicConfig| topic.kind == kind;
     let entry = match topics.values().any(|topic| topic.kind == TopicKind::TfStatic) {
         true => topics.values_mut().find(is_tree(TopicKind::TfStatic)),
         false => topics.values_mut().find(is_tree(TopicKind::Tf)),
     };
     entry?.vehicle_frame = Some(frame.clone());
-    Some(format!(
-        "neither odometry nor a twist names the vehicle's frame: by the tree of frames `{frame}` is taken for it"
-    ))
+    Some(match of_motion {
+        Some(part) => format!(
+            "the motion is told of `{part}`, which is fixed to `{frame}`: `{frame}` is taken for the vehicle's frame"
+        ),
+        None => format!(
+            "neither odometry nor a twist names the vehicle's frame: by the tree of frames `{frame}` is taken for it"
+        ),
+    })
 }
 
-/// Whether messages of the odometry or the twist name the vehicle's frame.
-fn is_named(topics: &Topics, messages: &Messages) -> bool {
+/// The frame that messages of the odometry or the twist name.
+fn frame_of_motion(topics: &Topics, messages: &Messages) -> Option<String> {
     let is_motion = |topic: &&TopicConfig| matches!(topic.kind, TopicKind::Odometry | TopicKind::Twist);
-    let Some(motion) = topics.values().find(is_motion) else { return false };
+    let motion = topics.values().find(is_motion)?;
     let frame = |message: &MessageRef| {
         let bytes = messages.container().read(message).ok()?;
         survey::motion(messages, message, &bytes).ok().map(|found| found.frame)
     };
-    let first = of_topic(messages, motion).find_map(frame);
-    first.is_some_and(|frame| !frame.is_empty())
+    of_topic(messages, motion).find_map(frame).filter(|frame| !frame.is_empty())
 }
 
 fn of_topic<'a>(messages: &'a Messages, topic: &'a TopicConfig) -> impl Iterator<Item = &'a MessageRef> {
@@ -56,6 +62,8 @@ struct Frames {
     parents: BTreeSet<String>,
     /// Those that hang on another one for good.
     children: BTreeSet<String>,
+    /// Which two are fixed to each other.
+    fixed: Vec<[String; 2]>,
 }
 
 impl Frames {
@@ -78,12 +86,32 @@ impl Frames {
     }
 
     fn add(&mut self, parent: &str, child: &str, is_static: bool) {
-        let [parent, child] = [parent, child].map(|name| name.trim_start_matches('/').to_owned());
+        let [parent, child] = [parent, child].map(|name| plain(name).to_owned());
         self.all.extend([parent.clone(), child.clone()]);
         if is_static {
-            self.parents.insert(parent);
-            self.children.insert(child);
+            self.parents.insert(parent.clone());
+            self.children.insert(child.clone());
+            self.fixed.push([parent, child]);
         }
+    }
+
+    /// The one that is called as vehicles are and that this part is fixed to; none where the part is the vehicle.
+    fn vehicle_of(&self, part: &str) -> Option<String> {
+        let part = plain(part);
+        if VEHICLES.contains(&part) {
+            return None;
+        }
+        let mut reached = BTreeSet::from([part]);
+        let mut known = 0;
+        while known < reached.len() {
+            known = reached.len();
+            for ends in &self.fixed {
+                if ends.iter().any(|end| reached.contains(end.as_str())) {
+                    reached.extend(ends.iter().map(String::as_str));
+                }
+            }
+        }
+        VEHICLES.into_iter().find(|name| reached.contains(name)).map(str::to_owned)
     }
 
     /// The one that is called as vehicles are, or else the only one that all others hang on for good.
@@ -98,14 +126,36 @@ impl Frames {
     }
 }
 
+/// A frame's name without the slash that early ROS put before it.
+fn plain(name: &str) -> &str {
+    name.trim_start_matches('/')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn vehicle(edges: &[(&str, &str, bool)]) -> Option<String> {
+    fn frames(edges: &[(&str, &str, bool)]) -> Frames {
         let mut frames = Frames::default();
         edges.iter().for_each(|(parent, child, is_static)| frames.add(parent, child, *is_static));
-        frames.vehicle()
+        frames
+    }
+
+    fn vehicle(edges: &[(&str, &str, bool)]) -> Option<String> {
+        frames(edges).vehicle()
+    }
+
+    #[test]
+    fn what_a_part_is_fixed_to_is_the_vehicle() {
+        let edges = [("mast", "imu", true), ("base_link", "mast", true), ("base_link", "radar", true)];
+        let of = |part: &str| frames(&edges).vehicle_of(part);
+        assert_eq!(of("/imu").as_deref(), Some("base_link"));
+        assert_eq!(of("base_link"), None, "it is the vehicle");
+        assert_eq!(of("wheel"), None, "nothing is known of it");
+        let moving = [("base_link", "imu", false), ("base_link", "radar", true)];
+        assert_eq!(frames(&moving).vehicle_of("imu"), None);
+        let ground = [("base_footprint", "base_link", true), ("base_link", "imu", true)];
+        assert_eq!(frames(&ground).vehicle_of("imu").as_deref(), Some("base_footprint"));
     }
 
     #[test]

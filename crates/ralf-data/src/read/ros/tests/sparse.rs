@@ -191,6 +191,28 @@ fn without_a_word_of_motion_the_vehicle_is_known_by_the_tree_or_the_settings() {
     assert!(refused.contains("`topics.tf_static.vehicle_frame = \"base_link\"`"), "{refused}");
 }
 
+/// An IMU 2 m ahead of the vehicle's frame, in which everything else is placed.
+#[test]
+fn odometry_of_a_part_is_taken_over_to_the_vehicle() {
+    let (_folder, path) = recording(|drive, to| {
+        let fixed = [(["base_link", "base"], 1.0), (["base_link", "imu"], 2.0)];
+        write(to, "/tf_static", fixed.map(|(frames, x)| (0, drive.transform(0, frames, [x, 0.0, 0.0]))));
+        write(to, "/front", [scan(drive, 0, &[0.5])]);
+        let of_imu = |ms| Odometry { child_frame_id: "imu".to_owned(), ..drive.odometry(ms) };
+        write(to, "/odom", (0..8).map(|k| (100 * k, of_imu(100 * k))));
+    });
+    let told = "the motion is told of `imu`, which is fixed to `base_link`: `base_link` is taken for the vehicle's frame";
+    assert!(guess(&path).unwrap().remarks.contains(&told.to_owned()));
+    let drive = crate::read::open(&path, None).unwrap().sequences.remove(0);
+    let sequence = drive.sequence();
+    assert_eq!(sequence.rig.radars[0].vehicle_from_radar.translation.x, 4.0);
+    assert_eq!(sequence.motion.poses()[0].odom_from_vehicle.translation.x, -2.0);
+    // A table that names no frame means the odometry's own, as ever.
+    let as_told = open_file(&path, &without("roof")).unwrap();
+    assert_eq!(as_told.sequence().rig.radars[0].vehicle_from_radar.translation.x, 2.0);
+    assert_eq!(as_told.sequence().motion.poses()[0].odom_from_vehicle.translation.x, 0.0);
+}
+
 /// Programs that estimate poses leave the twist at zero, or at NaN.
 #[test]
 fn velocities_that_are_none_are_not_taken() {
