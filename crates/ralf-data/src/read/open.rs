@@ -46,14 +46,14 @@ const FORMATS: [Format; 10] = [
         holds: "a folder `v1.2-*` (or an earlier version) with `ego_motion_chassis.json`",
         knows_truth: false,
         recognises: truckscenes::recognises,
-        open: |path, _, _| truckscenes::open(path),
+        open: |path, _, names| truckscenes::open(path, names),
     },
     Format {
         name: nuscenes::NAME,
         holds: "a folder `v1.0-*` with `sample_data.json`",
         knows_truth: false,
         recognises: nuscenes::recognises,
-        open: |path, _, _| nuscenes::open(path),
+        open: |path, _, names| nuscenes::open(path, names),
     },
     Format {
         name: view_of_delft::NAME,
@@ -125,7 +125,8 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
 }
 
 /// Opens the sequences of these names of a recording, all where none is named. Others may be damaged where each
-/// sequence has files of its own: not in nuScenes and MAN TruckScenes, whose tables tell of all, View-of-Delft and ROS.
+/// sequence has files of its own: not in View-of-Delft and ROS, and not in the tables of nuScenes and MAN TruckScenes,
+/// which tell of all.
 ///
 /// # Errors
 /// Those of [`open`]; a name that no sequence has.

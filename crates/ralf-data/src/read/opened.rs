@@ -18,7 +18,7 @@ impl Opened {
     pub(crate) fn of<T, R: SequenceReader + 'static>(
         found: Vec<(String, T)>,
         names: &[String],
-        open: impl Fn(&str, T) -> Result<R, DataError>,
+        mut open: impl FnMut(&str, T) -> Result<R, DataError>,
     ) -> Result<Self, DataError> {
         let is_there = |name: &String| found.iter().any(|(known, _)| known == name);
         let is_chosen = !names.is_empty() && names.iter().all(is_there);

@@ -19,8 +19,9 @@ mod source;
 
 use crate::disk::files::Folders;
 use crate::error::DataError;
+use crate::read::opened::Opened;
 use crate::read::scene_tables::{self, Scenes, lookup};
-use crate::read::{Recording, SequenceReader, truckscenes};
+use crate::read::{Recording, truckscenes};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -29,11 +30,11 @@ pub(crate) const NAME: &str = "nuscenes";
 /// The table that tells when and where scenes were recorded.
 const LOG: &str = "log.json";
 
-/// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`.
+/// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`; where names are given, those scenes.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
-/// changes inside a scene, a scene without ego poses.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// changes inside a scene. Of a scene that is named, or if all are such: no ego poses, a damaged CAN bus.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let version = scene_tables::only_folder(path, is_version, "v1.0-*")?;
     if version.join(truckscenes::TELLING).is_file() {
         let found = format!("{}, of MAN TruckScenes (--format {})", truckscenes::TELLING, truckscenes::NAME);
@@ -43,11 +44,10 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     tables.push(version.join(LOG));
     tables.sort();
     let mut folders = Folders::default();
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
-    for record in scenes(&version)?.finish(&version)? {
-        sequences.push(Box::new(source::scene(path, &version, &tables, record, &mut folders)?));
-    }
-    Ok(Recording::new(path, NAME, sequences))
+    let opened = Opened::of(scenes(&version)?.finish(), names, |_, record| {
+        source::scene(path, &version, &tables, record, &mut folders)
+    })?;
+    Ok(opened.recording(path, NAME, Vec::new()))
 }
 
 /// Whether a folder looks like nuScenes.

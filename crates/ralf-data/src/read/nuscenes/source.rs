@@ -50,6 +50,7 @@ pub(super) fn scene(
     record: SceneRecord,
     folders: &mut Folders,
 ) -> Result<FileSequence<NuScenes>, DataError> {
+    record.check_poses(version)?;
     let SceneRecord { name, title, channels, poses } = record;
     let fields = [&PCD_FIELDS[..], &DERIVED_FIELDS].concat();
     let rig = Models { radar: ARS_408_21, fields: &fields, lidar: HDL_32E }.rig(version, &channels)?;

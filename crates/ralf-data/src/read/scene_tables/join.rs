@@ -9,7 +9,7 @@ use ralf::sensors::check_mounting;
 use ralf::space::{PoseSample, Transform, transform_from_parts};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// A scene, as the tables know it.
 pub(crate) struct SceneRecord {
@@ -148,19 +148,14 @@ impl Scenes {
         }
     }
 
-    /// The scenes in the order of their names. Refused: one without poses.
-    pub(crate) fn finish(mut self, version: &Path) -> Result<Vec<SceneRecord>, DataError> {
+    /// The scenes by their names, in the order of these.
+    pub(crate) fn finish(mut self) -> Vec<(String, SceneRecord)> {
         for scene in &mut self.records {
             scene.poses.sort_by_key(|pose| pose.t_ns);
             scene.poses.dedup_by_key(|pose| pose.t_ns);
-            if scene.poses.is_empty() {
-                let place = format!("scene `{}`", scene.name);
-                let expected = "at least one measurement with its ego pose";
-                return Err(DataError::content(&version.join("sample_data.json"), place, expected, "none"));
-            }
         }
         self.records.sort_by(|a, b| a.name.cmp(&b.name));
-        Ok(self.records)
+        self.records.into_iter().map(|scene| (scene.name.clone(), scene)).collect()
     }
 }
 
@@ -178,7 +173,17 @@ impl SceneRecord {
         Some([times().min()?, times().max()?])
     }
 
+    /// Refuses a scene of which no measurement tells where the vehicle was.
+    pub(crate) fn check_poses(&self, version: &Path) -> Result<(), DataError> {
+        if !self.poses.is_empty() {
+            return Ok(());
+        }
+        let (file, place) = (version.join("sample_data.json"), format!("scene `{}`", self.name));
+        Err(DataError::content(&file, place, "at least one measurement with its ego pose", "none"))
+    }
+
     fn add(&mut self, calibration: &Calibration, row: SampleDataRow) -> Result<(), String> {
+        check_file(&row)?;
         let channel = match self.channels.iter().position(|c| c.calibration.name == calibration.name) {
             Some(channel) => channel,
             None => {
@@ -234,6 +239,17 @@ fn read_samples(
         take(&mut scene_of_sample, row.token, *lookup(&scene_indices, row.scene_token, "scene.json")?)
     })?;
     Ok((scenes, scene_of_sample))
+}
+
+/// Refuses a measurement's file that lies elsewhere than below the data set's folder.
+fn check_file(SampleDataRow { token, filename, .. }: &SampleDataRow) -> Result<(), String> {
+    let is_below = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+    match Path::new(&**filename).components().all(is_below) {
+        true => Ok(()),
+        false => {
+            Err(format!("the filename {filename:?} of the token `{token}`, which leads out of the data set"))
+        }
+    }
 }
 
 /// A sequence is named after its scene: refuses what is no name of its own.

@@ -17,8 +17,9 @@ mod source;
 
 use crate::disk::files::Folders;
 use crate::error::DataError;
+use crate::read::Recording;
+use crate::read::opened::Opened;
 use crate::read::scene_tables;
-use crate::read::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
 /// The format's name.
@@ -26,11 +27,12 @@ pub(crate) const NAME: &str = "truckscenes";
 /// The table that nuScenes has not.
 pub(crate) const TELLING: &str = "ego_motion_chassis.json";
 
-/// Opens the data set at the folder that holds `v1.2-*` (or an earlier version), `samples` and maybe `sweeps`.
+/// Opens the data set at the folder that holds `v1.2-*` (or an earlier version), `samples` and maybe `sweeps`; where
+/// names are given, those scenes.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
-/// changes inside a scene, a scene without poses.
-pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+/// changes inside a scene. Of a scene that is named, or if all are such: no poses.
+pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
     let version = scene_tables::only_folder(path, is_version, "vN.N-mini, -trainval or -test")?;
     let mut scenes = scene_tables::read_scenes(&version, |description, _| Ok(description.to_owned()))?;
     let motion = motion::Motion::read(&version, &mut scenes.records)?;
@@ -39,12 +41,11 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     tables.sort();
     let mut odometry = motion.odometry;
     let mut folders = Folders::default();
-    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
-    for record in scenes.finish(&version)? {
-        let odometry = odometry.remove(&record.name).unwrap_or_default();
-        sequences.push(Box::new(source::scene(path, &version, &tables, record, odometry, &mut folders)?));
-    }
-    Ok(Recording::new(path, NAME, sequences))
+    let opened = Opened::of(scenes.finish(), names, |name, record| {
+        let odometry = odometry.remove(name).unwrap_or_default();
+        source::scene(path, &version, &tables, record, odometry, &mut folders)
+    })?;
+    Ok(opened.recording(path, NAME, Vec::new()))
 }
 
 /// Whether a folder looks like MAN TruckScenes.

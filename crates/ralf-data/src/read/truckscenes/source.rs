@@ -30,6 +30,7 @@ pub(super) fn scene(
     odometry: Vec<OdometrySample>,
     folders: &mut Folders,
 ) -> Result<FileSequence<TruckScenes>, DataError> {
+    record.check_poses(version)?;
     let SceneRecord { name, title, channels, poses } = record;
     let fields = [&PCD_FIELDS[..], &["doppler"]].concat();
     let rig = Models { radar: ARS_548, fields: &fields, lidar: GENERIC_LIDAR }.rig(version, &channels)?;

@@ -5,6 +5,7 @@ mod reading;
 mod refusals;
 
 use super::*;
+use crate::read::SequenceReader;
 use crate::read::scene_tables::TableOrigin;
 use crate::testing;
 use ralf::sensors::Intrinsics;
@@ -166,7 +167,7 @@ impl DataSet {
     }
 
     fn open(&self) -> Result<Box<dyn SequenceReader>, DataError> {
-        let mut recording = open(self.0.path())?;
+        let mut recording = open(self.0.path(), &[])?;
         assert_eq!(recording.format, "nuscenes");
         Ok(recording.sequences.remove(0))
     }

@@ -6,7 +6,7 @@ mod recording;
 mod refusals;
 
 use super::*;
-use crate::error::DataError;
+use crate::read::SequenceReader;
 use crate::testing;
 use recording::{SCENE, TINY, VERSION, write_data_set};
 use serde_json::{Value, json};

@@ -78,6 +78,29 @@ fn the_version_is_told_by_the_folder() {
     set.refused(&["exactly one version folder", "found v1.1-mini, v1.2-mini"]);
 }
 
+#[test]
+fn a_filename_that_leads_out_of_the_data_set_is_refused() {
+    for name in ["/etc/hostname", "../a.pcd", "samples/../../a.pcd"] {
+        let set = DataSet::new();
+        set.edit("sample_data", |rows| {
+            (rows[0]["token"], rows[0]["filename"]) = (json!("abroad"), json!(name));
+        });
+        set.refused(&["sample_data.json: line", &format!("{name:?} of the token `abroad`, which leads out")]);
+    }
+}
+
+#[test]
+fn a_scene_without_measurements_costs_the_others_nothing() {
+    let set = DataSet::new();
+    set.edit("scene", |rows| {
+        let mut other = rows[0].clone();
+        (other["token"], other["name"]) = (json!("other"), json!("parked"));
+        rows.push(other);
+    });
+    let words = "scene `parked`: expected at least one measurement with its ego pose, found none";
+    testing::check_left_out(set.0.path(), [SCENE, "parked"], words);
+}
+
 /// A second scene of another lorry, with a sample, a measurement and poses of its own, this much after the first, us.
 fn other_lorry(set: &DataSet, after: i64, name: &str) {
     let twin = |rows: &mut Vec<Value>, changes: &[(&str, Value)]| {
