@@ -56,6 +56,31 @@ fn same_rig(found: &Rig, expected: &Rig) {
     assert_eq!(found.1.intrinsics, expected.1.intrinsics);
 }
 
+/// From a velocity the reader derives a range rate, unless the settings say that the recording has none.
+#[test]
+fn the_way_there_and_back_adds_no_range_rate() {
+    let (_dataset, path) = sequence();
+    let toml = fs::read_to_string(path.join("sequence.toml")).unwrap();
+    write(&path.join("sequence.toml"), toml.replace("\"doppler\", \"rcs\"", "\"vx\", \"vy\""));
+    let reader = LayoutSequence::open(&path).unwrap();
+    for format in [RosFormat::Mcap, RosFormat::Bag] {
+        let folder = tempfile::tempdir().unwrap();
+        let (recording, _) = converted(&reader, folder.path(), format);
+        let again = &recording.sequences[0];
+        let fields = ["x", "y", "z", "vx", "vy"];
+        assert_eq!(again.sequence().rig.radars[0].fields, fields);
+        // As text, for what is no number equals nothing.
+        let columns = |source: &dyn Source| format!("{:?}", source.radar_scan(0, 0).unwrap().columns);
+        assert_eq!(columns(again.as_ref()), columns(&reader));
+        let path = folder.path().join("street").with_extension(format.extension());
+        let guessed = open(&path, None).unwrap();
+        assert_eq!(
+            guessed.sequences[0].sequence().rig.radars[0].fields,
+            [&fields[..], &["doppler"]].concat()
+        );
+    }
+}
+
 #[test]
 fn the_way_there_and_back_keeps_what_both_can_hold() {
     for format in [RosFormat::Mcap, RosFormat::Bag] {

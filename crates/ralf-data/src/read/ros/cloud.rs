@@ -21,8 +21,25 @@ pub(super) struct Columns {
 const DERIVED: [(&str, [&str; 2]); 2] =
     [("doppler", ["vx", "vy"]), ("doppler_compensated", ["vx_comp", "vy_comp"])];
 
-/// Every field of a radar's scan under its own name, and the range rates that derive from them.
-pub(super) fn radar_columns(messages: &Messages, message: &MessageRef) -> Result<Columns, DataError> {
+/// The range rates that derive from fields of these names, with the components that they derive from.
+fn derived(names: &[String]) -> Vec<(&'static str, [&'static str; 2])> {
+    let has = |name: &str| names.iter().any(|known| known == name);
+    let is_derived =
+        |(name, [vx, vy]): &(&str, [&str; 2])| !has(name) && ["x", "y", vx, vy].into_iter().all(has);
+    DERIVED.into_iter().filter(is_derived).collect()
+}
+
+/// Whether range rates are derived from a radar's fields, if nobody says otherwise.
+pub(crate) fn derives_doppler(fields: &[String]) -> bool {
+    !derived(fields).is_empty()
+}
+
+/// Every field of a radar's scan under its own name, and those range rates that derive from them and are wanted.
+pub(super) fn radar_columns(
+    messages: &Messages,
+    message: &MessageRef,
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<Columns, DataError> {
     if RadarScan::DEFINITION.is(&messages.topic(message).type_name) {
         return Ok(scan_columns(&messages.decode(message)?));
     }
@@ -31,9 +48,9 @@ pub(super) fn radar_columns(messages: &Messages, message: &MessageRef) -> Result
     let names: Vec<String> = table.names().map(str::to_owned).collect();
     let values = names.iter().filter_map(|name| table.column(name)).collect();
     let mut columns = Columns { names, values, rows: table.len() };
-    for (name, components) in DERIVED {
-        if let (None, [Some(vx), Some(vy)], [Some(x), Some(y)]) =
-            (columns.get(name), columns.pair(components), columns.pair(["x", "y"]))
+    for (name, components) in derived(&columns.names).into_iter().filter(|(name, _)| is_wanted(name)) {
+        if let ([Some(vx), Some(vy)], [Some(x), Some(y)]) =
+            (columns.pair(components), columns.pair(["x", "y"]))
         {
             let derived = radial(x, y, vx, vy);
             columns.names.push(name.to_owned());

@@ -167,7 +167,7 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig 
         model: Some(model.to_owned()),
         ..TopicConfig::new(&topic.name, kind)
     };
-    let scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message).ok());
+    let scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message, |_| true).ok());
     let is_lidar = |fields: &[String]| {
         let has = |name: &&str| fields.iter().any(|known| known == name);
         !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)

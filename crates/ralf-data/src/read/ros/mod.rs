@@ -24,6 +24,7 @@ mod vehicle;
 
 use crate::error::DataError;
 use crate::read::Recording;
+pub(crate) use cloud::derives_doppler;
 pub use guess::{Guess, guess, topics_toml};
 pub use inspection::{RosInspection, TopicInspection, inspect, is_ros};
 use messages::Messages;

@@ -225,8 +225,9 @@ impl Asked<'_> {
     /// scan that names any.
     fn radar_fields(&self) -> Result<Option<(MessageRef, Vec<String>)>, DataError> {
         let mut of_empty = None;
+        let is_wanted = |_: &str| self.topic.derive_doppler != Some(false);
         let found = self.first(|_, message| {
-            let Columns { names, rows, .. } = radar_columns(self.messages, message)?;
+            let Columns { names, rows, .. } = radar_columns(self.messages, message, is_wanted)?;
             if rows > 0 {
                 return Ok(Some((*message, names)));
             }

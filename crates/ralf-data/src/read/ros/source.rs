@@ -89,7 +89,8 @@ impl Source for Drive {
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let message = measurement("radar", &self.radars, radar, scan)?;
         let model = &self.sequence.rig.radars[radar];
-        let columns = radar_columns(&self.origin.messages, message)?;
+        let is_wanted = |name: &str| model.column(name).is_some();
+        let columns = radar_columns(&self.origin.messages, message, is_wanted)?;
         let t_ns = self.sequence.times.radars[radar][scan];
         if columns.rows == 0 {
             // Some drivers leave the fields out where nothing was detected.

@@ -21,6 +21,9 @@ pub struct TopicConfig {
     /// Radar: whether it measures elevation; as the model says, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation: Option<bool>,
+    /// Radar: whether range rates are derived from a velocity where no field tells them; `true`, if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub derive_doppler: Option<bool>,
     /// Camera: the topic of its `sensor_msgs/CameraInfo`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub info: Option<String>,
@@ -88,6 +91,7 @@ impl TopicConfig {
             kind,
             model: None,
             elevation: None,
+            derive_doppler: None,
             info: None,
             rectified: None,
             motion_corrected: None,
@@ -103,6 +107,7 @@ impl TopicConfig {
         let given = [
             ("model", self.model.is_some(), [Radar, Lidar].as_slice()),
             ("elevation", self.elevation.is_some(), &[Radar]),
+            ("derive_doppler", self.derive_doppler.is_some(), &[Radar]),
             ("info", self.info.is_some(), &[Camera]),
             ("rectified", self.rectified.is_some(), &[Camera]),
             ("motion_corrected", self.motion_corrected.is_some(), &[Lidar]),

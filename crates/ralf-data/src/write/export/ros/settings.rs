@@ -5,7 +5,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::degrees;
 use crate::read::models::GENERIC;
-use crate::read::ros::{TopicConfig, TopicKind, Topics};
+use crate::read::ros::{TopicConfig, TopicKind, Topics, derives_doppler};
 use ralf::config::SensorOverride;
 use ralf::sensors::{Elevation, Lidar, Radar};
 use ralf::space::EgoMotion;
@@ -29,7 +29,10 @@ pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<Strin
     for ((radar, name), times) in sequence.rig.radars.iter().zip(&names.radars).zip(&sequence.times.radars) {
         let elevation = Some(radar.elevation == Elevation::Measured);
         let frame = frame(name, times);
-        settings.add(&radar.name, TopicConfig { elevation, frame, ..cloud(name, TopicKind::Radar) });
+        // A range rate that the recording lacks would be one more column.
+        let derive_doppler = derives_doppler(&radar.fields).then_some(false);
+        let topic = cloud(name, TopicKind::Radar);
+        settings.add(&radar.name, TopicConfig { elevation, derive_doppler, frame, ..topic });
         settings.sensors.insert(radar.name.clone(), of_radar(radar));
     }
     for ((lidar, name), times) in sequence.rig.lidars.iter().zip(&names.lidars).zip(&sequence.times.lidars) {
