@@ -97,24 +97,25 @@ fn copied(recording: Recording) -> Recording {
     Recording { sequences, incomplete, ..recording }
 }
 
-/// Says which sequences were left out and why: what is missing in one line for each reason, for large data sets are
-/// published part by part, with tables of all of them; what was refused one by one.
+/// Says which sequences were left out and why: what was refused one by one, what is missing in one line for each
+/// reason. No damage is only that of radars' files: large data sets are published part by part, with tables of all.
 fn tell_left_out(recording: &Recording) {
     let all = recording.sequences.len() + recording.incomplete.len();
-    let mut reasons = BTreeMap::<String, Vec<&str>>::new();
+    let (mut damaged, mut not_copied) = (BTreeMap::<String, Vec<&str>>::new(), Vec::new());
     for Incomplete { name, lost } in &recording.incomplete {
         match lost {
             Lost::Refused(error) => say_left_out(&format!("{name}: {}", in_a_line(&error.to_string()))),
-            _ => reasons.entry(lost.to_string()).or_default().push(name),
+            Lost::Part(_) => damaged.entry(lost.to_string()).or_default().push(name),
+            Lost::Radars => not_copied.push(name.as_str()),
         }
     }
-    for (reason, names) in reasons {
-        say(&format!(
-            "warning: {} of {} left out, for {reason}: {}",
-            grouped(names.len() as u64),
-            counted(all, "sequence"),
-            listed(&names, SHOWN)
-        ));
+    let some = |names: &[&str]| format!("{} of {}", grouped(names.len() as u64), counted(all, "sequence"));
+    for (reason, names) in damaged {
+        say_left_out(&format!("{}, for {reason}: {}", some(&names), listed(&names, SHOWN)));
+    }
+    if !not_copied.is_empty() {
+        let (some, names) = (some(&not_copied), listed(&not_copied, SHOWN));
+        say(&format!("warning: {some} left out, for {}: {names}", Lost::Radars));
     }
 }
 

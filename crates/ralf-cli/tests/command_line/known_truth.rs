@@ -56,14 +56,14 @@ fn a_sequence_that_lost_what_tells_its_scans_is_named_as_left_out() {
     fs::remove_file(sequence(3).join("scenes.json")).unwrap();
     let [data, out, own] = [&data, &out, &own].map(|path| path.to_str().unwrap());
     let told = [
-        "warning: 1 of 3 sequences left out, for radar_data.h5 is missing: sequence_2",
-        "warning: 1 of 3 sequences left out, for scenes.json is missing: sequence_3",
+        "left out: 1 of 3 sequences, for radar_data.h5 is missing: sequence_2",
+        "left out: 1 of 3 sequences, for scenes.json is missing: sequence_3",
     ];
-    ralf(["inspect", data]).exits(0).says(told);
-    ralf(["label", data, "-o", out]).exits(0).says(told);
-    ralf(["convert", data, "-o", own]).exits(0).says(told);
+    ralf(["inspect", data]).exits(3).says(told);
+    ralf(["label", data, "-o", out]).exits(3).says(told);
+    ralf(["convert", data, "-o", own]).exits(3).says(told);
     let chosen = |name| ralf(["inspect", data, "--sequence", name]);
-    assert!(!chosen("sequence_1").exits(0).stderr.contains("left out, for"));
+    assert!(!chosen("sequence_1").exits(0).stderr.contains("left out"));
     chosen("sequence_2")
         .exits(1)
         .ends_with_error(["sequence sequence_2: expected `radar_data.h5`, found none"]);
