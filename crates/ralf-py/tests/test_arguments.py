@@ -8,6 +8,7 @@ import pytest
 from conftest import tree
 
 import ralf
+from ralf._jobs import settings_json
 
 SETTINGS = {"corrections.radar_front.add_yaw_deg": 2.0, "lidar.beta": 0.5}
 
@@ -41,6 +42,13 @@ def test_numpy_s_values_are_settings(drive, tmp_path):
     assert settings["corrections"]["radar_front"]["add_translation"] == [1.0, 2.0, 3.0]
     listed = {"corrections.radar_front.add_translation": list(place)}
     assert ralf.open(drive, settings=listed).settings["corrections"] == settings["corrections"]
+
+
+def test_a_sensor_s_name_may_hold_a_dot():
+    told = {"sigma_range_m": 0.2}
+    for settings in ({"sensors": {"radar.front": told}}, {'sensors."radar.front"': told}):
+        assert settings_json(settings)["sensors"]["radar.front"]["sigma_range_m"] == 0.2
+    assert settings_json({"sensors.front": told})["sensors"]["front"]["sigma_range_m"] == 0.2
 
 
 def test_what_are_no_settings_is_named(drive, tmp_path):

@@ -38,13 +38,14 @@ def settings_json(settings: Settings, method: str | None = None, below: Any = No
 
 
 def _flat(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, Any]]:
-    """Nested mappings as dotted keys."""
+    """Nested mappings as dotted keys; a sensor's name that holds a dot stands in quotes."""
     found: list[tuple[str, Any]] = []
     for key, value in settings.items():
         if not isinstance(key, str):
             raise TypeError(f"settings: expected the names of settings as keys, found {before}{key!r}")
         if isinstance(value, Mapping):
-            found += _flat(value, f"{before}{key}.")
+            name = _toml(key) if before and "." in key else key
+            found += _flat(value, f"{before}{name}.")
         else:
             found.append((before + key, value))
     return found

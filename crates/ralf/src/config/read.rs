@@ -152,15 +152,29 @@ fn assign(table: &mut Table, assignment: &str) -> Result<(), ConfigError> {
     let value = format!("value = {text}").parse::<Table>().ok().and_then(|mut parsed| parsed.remove("value"));
     let value = value.or_else(|| bare_number(text.trim()).map(Value::Float));
     let value = value.unwrap_or_else(|| Value::String(text.trim().to_owned()));
-    let mut names: Vec<&str> = key.split('.').map(str::trim).collect();
+    let mut names = names_of(key);
     let last = names.pop().filter(|name| !name.is_empty()).ok_or_else(refused)?;
     let mut place = table;
     for name in names {
         let next = place.entry(name).or_insert_with(|| Value::Table(Table::new()));
         place = next.as_table_mut().ok_or_else(refused)?;
     }
-    place.insert(last.to_owned(), value);
+    place.insert(last, value);
     Ok(())
+}
+
+/// The names in a key. A name that holds a dot stands in quotes, as TOML has it; any other needs none.
+fn names_of(key: &str) -> Vec<String> {
+    let quoted = Some(key).filter(|key| key.contains(['"', '\'']));
+    let parsed = quoted.and_then(|key| format!("{key} = 0").parse::<Table>().ok());
+    let Some(parsed) = parsed else { return key.split('.').map(|name| name.trim().to_owned()).collect() };
+    let (mut names, mut value) = (Vec::new(), Value::Table(parsed));
+    while let Value::Table(table) = value {
+        let Some((name, below)) = table.into_iter().next() else { break };
+        names.push(name);
+        value = below;
+    }
+    names
 }
 
 /// A number that begins or ends with its point, which TOML doesn't know.
@@ -217,6 +231,21 @@ mod tests {
         assert_eq!(Config::from_toml("[lidar]\nbeta = 1", &["tracking.beta=2"]).unwrap().tracking.beta, 2.0);
         assert_eq!(Config::from_toml("", &["fusion.alpha= .5"]).unwrap().fusion.alpha, 0.5);
         assert!(refusal("", &["fusion.alpha=1.2.3"]).contains("1.2.3"));
+    }
+
+    #[test]
+    fn a_name_with_a_dot_stands_in_quotes() {
+        let range = |key: &str, name: &str| {
+            let assignment = format!("sensors.{key}.sigma_range_m=0.2");
+            Config::from_toml("", &[&assignment]).unwrap().sensors[name].sigma_range_m
+        };
+        for key in ["\"radar.front\"", " 'radar.front' "] {
+            assert_eq!(range(key, "radar.front"), Some(0.2));
+        }
+        for name in ["Radar vorn", "it's"] {
+            assert_eq!(range(name, name), Some(0.2));
+        }
+        assert!(refusal("", &["sensors.radar.front.sigma_range_m=0.2"]).contains("front"));
     }
 
     #[test]
