@@ -13,12 +13,16 @@ const LEAST_HOURS: f64 = 0.05;
 /// Prints what everybody has done, day by day, and how fast.
 pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
     let worked = Worked::below(out)?;
-    // Who asks for a list gets one, of a folder that is there.
-    if worked.is_empty() && !(as_json && out.is_dir()) {
+    // That nobody has done anything yet is an answer, of a folder that is there.
+    if worked.is_empty() && !out.is_dir() {
         bail!("{}: expected corrections, found none", out.display());
     }
     let page: Value = worked.iter().map(Worked::json).collect();
-    print(&if as_json { serde_json::to_string_pretty(&page)? } else { table(&worked) })?;
+    print(&match (as_json, worked.is_empty()) {
+        (true, _) => serde_json::to_string_pretty(&page)?,
+        (false, true) => format!("{}: nobody has corrected anything yet", out.display()),
+        (false, false) => table(&worked),
+    })?;
     Ok(Outcome::Done)
 }
 
