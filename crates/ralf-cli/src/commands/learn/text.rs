@@ -10,7 +10,8 @@ pub(super) fn page(fitted: &Fitted) -> String {
         "Each world, judged by a model that was fitted to all the others; the paper's method beside it.\n\
          F1 (plausible), average precision (AP), accuracy and calibration error (ECE) of each. AP ranks by w alone,\n\
          floor detections, too, which the paper's method calls plausible at no threshold: `ralf evaluate` and\n\
-         `ralf report` never find these.\n\n",
+         `ralf report` never find these. The model answers for all of them: `ralf label` asks the paper's method\n\
+         where evidence is unlike what the model knows (learned.max_novelty).\n\n",
     );
     let rows = &fitted.left_out;
     let width = rows.iter().map(|world| world.world.len()).max().unwrap_or(0).max(12);
