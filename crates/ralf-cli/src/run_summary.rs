@@ -6,8 +6,11 @@ use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
-use ralf_data::run::{CameraRecord, ImageRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::run::{
+    CameraRecord, ImageRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan, told_gone,
+};
 use ralf_data::views::Lacking;
+use std::path::Path;
 
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
@@ -38,6 +41,13 @@ pub(crate) fn say_not_labelled(record: &RunRecord) -> Outcome {
         outcome = Outcome::Partial;
     }
     outcome
+}
+
+/// Says which sequences were labelled, and are not there any more: a place's, of the recording or of its results.
+pub(crate) fn say_gone(place: &Path, gone: &[String]) {
+    if !gone.is_empty() {
+        say(&format!("warning: {}: {}", place.display(), told_gone(gone)));
+    }
 }
 
 /// Says what of a sequence could not be learned from, and how it ended by that.

@@ -6,7 +6,7 @@ use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
-use ralf_data::run::{Earlier, Outcome, read_record};
+use ralf_data::run::{Earlier, Outcome, read_record, told_gone};
 use ralf_data::views::Lacking;
 use ralf_data::{DataError, Settings};
 use ralf_files::Kind;
@@ -105,7 +105,9 @@ pub(crate) fn label(
 /// and what else there is to be warned of.
 type Done = (Vec<String>, Vec<String>, Vec<String>, Vec<String>);
 
-fn told(Outcome { record, labelled, earlier, mut warnings }: Outcome, lacking: &[Lacking]) -> Done {
+fn told(done: Outcome, lacking: &[Lacking]) -> Done {
+    let Outcome { record, labelled, earlier, gone, mut warnings, .. } = done;
+    warnings.extend((!gone.is_empty()).then(|| told_gone(&gone)));
     warnings.extend(lacking.iter().map(Lacking::words));
     warnings.extend(
         record.doubtful_radars().map(|(sequence, radar, words)| format!("{sequence} {radar}: {words}")),

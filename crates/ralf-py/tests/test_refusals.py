@@ -285,6 +285,20 @@ def test_a_picture_of_what_could_not_be_labelled_is_refused_or_warned_of(drive, 
         ralf.plot(run, name, scan=0, radar=radar, width=300)
 
 
+def test_labels_of_another_recording_are_refused_and_what_is_gone_is_warned_of(drive, tmp_path, cli):
+    (name,) = ralf.open(drive).sequences
+    recording, other, out = tmp_path / "drive", tmp_path / "other", tmp_path / "out"
+    shutil.copytree(drive, recording)
+    shutil.copytree(drive / "sequences" / name, recording / "sequences/second")
+    ralf.label(recording, out)
+    cli("simulate", "--preset", "tiny", "--scans", 6, "--no-images", "--seed", 5, "-o", other)
+    with pytest.raises(ralf.RalfError, match=f"expected labels of {other}.*those of another recording, {recording}"):
+        ralf.label(other, out)
+    shutil.rmtree(recording / "sequences/second")
+    with pytest.warns(UserWarning, match="found none of second: their labels stay as they are"):
+        assert ralf.label(recording, out).labelled == []
+
+
 def test_pictures_of_another_name_are_refused(run, tmp_path):
     picture = ralf.plot(run, run.sequences[0], scan=0, width=300)
     with pytest.raises(ValueError, match=r"expected a name that ends in \.png, found .*x\.jpg"):

@@ -3,7 +3,7 @@
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_lacking};
+use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_gone, say_lacking};
 use crate::text::{grouped, print};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
@@ -195,6 +195,7 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
         match many::assemble(folder, jobs, &stages) {
             Ok(done) => {
                 recordings += 1;
+                say_gone(folder, &done.gone);
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
                 all_labelled_without(&done.record)

@@ -8,7 +8,7 @@ use crate::arguments::{
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{all_labelled_without, run_summary, say_lacking, say_not_labelled};
+use crate::run_summary::{all_labelled_without, run_summary, say_gone, say_lacking, say_not_labelled};
 use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
@@ -118,6 +118,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     if done.labelled.is_empty() {
         say("nothing to do: labelled before with the same program, settings and inputs");
     }
+    say_gone(&recording.path, &done.gone);
     print(&if arguments.json { serde_json::to_string_pretty(&done.record)? } else { summary(&done) })?;
     if arguments.timings {
         say(&stages.spent.table());

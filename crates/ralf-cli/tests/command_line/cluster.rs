@@ -40,6 +40,22 @@ fn a_folder_that_nobody_planned_is_refused() {
 }
 
 #[test]
+fn labels_of_another_recording_are_no_plans() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let other = Dataset::of_another_drive(&Shape { scans: 3, ..Shape::default() });
+    let many = dataset.beside("many");
+    let out = format!("{many}/dataset");
+    ralf(["label", "-q", &dataset.path, "-o", &out]).exits(0);
+    let before = without_timings(&out);
+    ralf(["cluster", "plan", "-q", &other.path, "-o", &many]).exits(3).prints(["0"]).says([
+        "not planned: ",
+        &other.path,
+        "found those of another recording, ",
+    ]);
+    assert!(without_timings(&out) == before);
+}
+
+#[test]
 fn labels_of_other_settings_that_a_plan_removes_are_named() {
     let dataset = Dataset::of(&Shape { sequences: &["00", "01"], scans: 2, ..Shape::default() });
     let out = dataset.beside("many/dataset");

@@ -164,11 +164,11 @@ fn finished_labels_of_a_killed_run_that_other_settings_remove_are_named() {
 #[test]
 fn labels_of_other_settings_or_inputs_that_are_made_again_are_named() {
     let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
-    let other = Dataset::of(&Shape { scans: 3, sequences: &["00"], ..Shape::default() });
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]);
     ran.exits(0).says(["labelled again, for they were made by another version", "settings: 00, 01"]);
-    let ran = ralf(["label", &other.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]);
+    dataset.edit("sequence.toml", "sigma_azimuth_deg = 0.6", "sigma_azimuth_deg = 0.7");
+    let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]);
     ran.exits(0).says(["sequence 00 is labelled again: it is read from other inputs than before"]);
 }
 

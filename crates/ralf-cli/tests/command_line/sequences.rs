@@ -99,6 +99,61 @@ fn a_sequence_that_changed_leaves_the_others_alone() {
 }
 
 #[test]
+fn labels_of_another_recording_are_left_as_they_are() {
+    let dataset = two();
+    let shape = Shape { scans: 5, sequences: &["00", "02"], ..Shape::default() };
+    let other = Dataset::of_another_drive(&shape);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let before = tree(&dataset.out);
+    let label = |more: [&str; 2]| ralf(["label", &other.path, "-o", &dataset.out, more[0], more[1]]);
+    let there = fs::canonicalize(&dataset.path).unwrap();
+    for more in [["--jobs", "1"], ["--sequence", "00"], ["--set", OTHER]] {
+        label(more).exits(1).prints_nothing().ends_with_error([
+            "run.json: recording: expected labels of ",
+            &other.path,
+            "found those of another recording, ",
+            there.to_str().unwrap(),
+            "with sequences of the same names (00): label into another folder",
+        ]);
+        assert!(tree(&dataset.out) == before, "{more:?}");
+    }
+    // Of what has no labels yet, nothing is lost.
+    label(["--sequence", "02"]).exits(0).says_nothing();
+    assert_eq!(recorded(&dataset), ["00", "01", "02"]);
+}
+
+#[test]
+fn a_recording_that_was_moved_or_changed_where_it_lies_is_the_same() {
+    let dataset = two();
+    let other = Dataset::of_another_drive(&Shape { scans: 5, ..Shape::default() });
+    let moved = dataset.beside("moved");
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    fs::rename(&dataset.path, &moved).unwrap();
+    let label = || ralf(["label", &moved, "-o", &dataset.out]).exits(0);
+    label().says(["nothing to do"]);
+    let told = "sequence 00 is labelled again: it is read from other inputs than before";
+    fs::write(format!("{moved}/sequences/00/odometry.csv"), fs::read(other.file("odometry.csv")).unwrap())
+        .unwrap();
+    label().says([told]);
+    fs::remove_dir_all(format!("{moved}/sequences")).unwrap();
+    fs::rename(format!("{}/sequences", other.path), format!("{moved}/sequences")).unwrap();
+    ralf(["label", &moved, "-o", &dataset.out, "--sequence", "00"]).exits(0).says([told]);
+}
+
+#[test]
+fn a_sequence_that_is_gone_is_named_and_its_labels_stay() {
+    let dataset = two();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    fs::remove_dir_all(format!("{}/sequences/01", dataset.path)).unwrap();
+    let before = tree(&dataset.out);
+    let told = "expected all sequences that were labelled from here, found none of 01: their labels stay as they are";
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do", &dataset.path, told]);
+    let chosen = ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "00"]).exits(0);
+    assert!(!chosen.stderr.contains("found none of"), "{}", chosen.stderr);
+    assert!(tree(&dataset.out) == before);
+}
+
+#[test]
 fn a_damaged_sequence_is_in_nobodys_way_who_asks_for_another() {
     let dataset = two();
     let odometry = format!("{}/sequences/01/odometry.csv", dataset.path);

@@ -19,6 +19,9 @@ pub struct SequenceRecord {
     pub name: String,
     /// Of program, settings, name and inputs together: equal where the results are equal.
     pub fingerprint: String,
+    /// Where the recording lay, wherever the program was started. An older record doesn't tell.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub recording: String,
     /// Of `plausibility.parquet`. An older record has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<FileRecord>,

@@ -1,6 +1,7 @@
 //! Putting a sequence's labelled scans together, in the order of the rig: row groups of its table are read and encoded
 //! side by side, and written in their order.
 
+use super::other_recording::place_of;
 use super::without::Without;
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
@@ -68,6 +69,7 @@ pub(super) fn assemble(
     Ok(SequenceRecord {
         name: sequence.name.clone(),
         fingerprint: fingerprint.to_owned(),
+        recording: place_of(task.root),
         table,
         unlike_sisters,
         without_numbers,

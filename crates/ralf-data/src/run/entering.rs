@@ -36,7 +36,7 @@ impl LabelRun<'_> {
     ) -> Result<(Option<WriterLock>, OutputFolder, Vec<Identity>), DataError> {
         let refused = match self.lock() {
             Ok(lock) => {
-                let (folder, asked) = self.open_folder(observer)?;
+                let (folder, asked) = self.open_folder(|| Ok(()), observer)?;
                 return Ok((Some(lock), folder, asked));
             }
             Err(refused) => refused,
@@ -50,15 +50,17 @@ impl LabelRun<'_> {
         Ok((None, folder, asked))
     }
 
-    /// The output folder, ready for the sequences that are asked for.
+    /// The output folder, ready for the sequences that are asked for. `accepted` is called before anything in it
+    /// changes, once it is known to hold no labels of another recording.
     pub(super) fn open_folder(
         &self,
+        accepted: impl FnOnce() -> Result<(), DataError>,
         observer: &dyn Observer,
     ) -> Result<(OutputFolder, Vec<Identity>), DataError> {
         let run = self.record();
         let known = Unfinished::of(&OutFolder::new(self.out), &run)?.inputs()?;
         let asked =
             inputs::identify(self.recording, &fingerprint::of_run(&run), &known, self.jobs, observer)?;
-        Ok((OutputFolder::open(self.out, run, self.recording, &asked)?, asked))
+        Ok((OutputFolder::open(self.out, run, self.recording, &asked, accepted)?, asked))
     }
 }

@@ -17,6 +17,7 @@ mod in_memory;
 mod inputs;
 mod not_read;
 mod observer;
+mod other_recording;
 mod output_folder;
 mod place;
 mod results;
@@ -40,6 +41,7 @@ pub use in_memory::InMemory;
 pub use observer::{Observer, Part, Stage, Unwatched};
 pub use place::check_output_folder;
 pub use stretch::{Planned, Stretch, StretchOutcome};
+pub use warnings::told_gone;
 
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans, in_time, time_of};
@@ -47,9 +49,11 @@ use crate::read::{Recording, SequenceReader};
 use crate::result::{CLASS_FROM, Schema, SequenceNames, evidence_columns, learned_columns};
 use crate::settings::Settings;
 use any_labeler::AnyLabeler;
+use other_recording::place_of;
 use ralf::config::{Config, Method};
 use ralf::learned::Model;
 use ralf::sensors::{Rig, Timelines};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -86,6 +90,9 @@ pub struct Outcome {
     /// What became of earlier results. Of those that are gone it names the sequences that were not asked for; the
     /// others are labelled anew.
     pub earlier: Earlier,
+    /// Names of sequences that were labelled from where the recording lies, and of which it holds nothing any more:
+    /// their labels stay. None where it was asked for by its sequences.
+    pub gone: Vec<String>,
     /// What [`LabelRun::warnings`] says.
     pub warnings: Vec<String>,
 }
@@ -170,8 +177,19 @@ impl LabelRun<'_> {
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
         let mut record = folder.finish(finished, timings, checks)?;
+        let gone = self.gone(&record);
         record.retain(|sequence| names.contains(&sequence.name));
-        Ok(Outcome { record, labelled, earlier, warnings: self.warnings() })
+        Ok(Outcome { record, labelled, earlier, gone, warnings: self.warnings() })
+    }
+
+    /// The sequences of [`Outcome::gone`].
+    fn gone(&self, record: &RunRecord) -> Vec<String> {
+        let Recording { path, sequences, incomplete, is_selected, .. } = self.recording;
+        let read = sequences.iter().map(|reader| reader.sequence().name.as_str());
+        let here: BTreeSet<&str> = read.chain(incomplete.iter().map(|one| one.name.as_str())).collect();
+        let place = place_of(path);
+        let labelled = record.sequences.iter().filter(|sequence| !is_selected && sequence.recording == place);
+        labelled.map(|sequence| sequence.name.clone()).filter(|name| !here.contains(name.as_str())).collect()
     }
 
     /// Every sequence, with the sensors as the settings have them.

@@ -6,6 +6,7 @@
 use super::earlier::Earlier;
 use super::inputs::Identity;
 use super::not_read;
+use super::other_recording::{Labelled, refuse_other_recording};
 use super::results::Results;
 use super::unfinished::{Finished, Unfinished};
 use super::workspace::Workspace;
@@ -33,21 +34,28 @@ pub(super) struct OutputFolder {
 impl OutputFolder {
     /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays,
     /// unless it is asked for and was read from other inputs, or from none, or is not whole; all other results are
-    /// removed.
+    /// removed. Those of another recording are refused; `accepted` is called where there are none, before anything
+    /// changes.
     pub(super) fn open(
         out: &Path,
         run: RunRecord,
         recording: &Recording,
         asked: &[Identity],
+        accepted: impl FnOnce() -> Result<(), DataError>,
     ) -> Result<Self, DataError> {
         let mut folder = Self::empty(out, run)?;
         // Of a record that this version can't read, nothing is known.
-        match read_record(out) {
-            Ok(found) if found.is_like(&folder.record) => folder.record = found,
-            Ok(other) => folder.remove_all(&other)?,
-            Err(_) => {}
+        let found = read_record(out).ok();
+        let finished = folder.unfinished.finished()?;
+        let labelled = Labelled { record: found.as_ref(), finished: &finished };
+        refuse_other_recording(&folder.record_file, &labelled, &recording.path, asked)?;
+        accepted()?;
+        match found {
+            Some(found) if found.is_like(&folder.record) => folder.record = found,
+            Some(other) => folder.remove_all(&other)?,
+            None => {}
         }
-        folder.settle(asked, recording)?;
+        folder.settle(finished, asked, recording)?;
         let removed = folder.unfinished.remove_outdated(asked, &folder.results)?;
         folder.earlier.add(removed);
         Ok(folder)
@@ -91,8 +99,12 @@ impl OutputFolder {
     }
 
     /// Adds what killed runs have finished to the record, and takes out of it what is to be labelled again.
-    fn settle(&mut self, asked: &[Identity], recording: &Recording) -> Result<(), DataError> {
-        let finished = self.unfinished.finished()?;
+    fn settle(
+        &mut self,
+        finished: Vec<Finished>,
+        asked: &[Identity],
+        recording: &Recording,
+    ) -> Result<(), DataError> {
         let fingerprints: Vec<_> =
             finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
         let known = |finished: &Finished| self.record.sequence(&finished.0.name).is_some();

@@ -72,7 +72,8 @@ impl LabelRun<'_> {
         self.plan_and(|| Ok(()), scans, observer)
     }
 
-    /// The same, with something to keep as soon as nobody else writes to the output folder.
+    /// The same, with something to keep as soon as nobody else writes to the output folder, and it is no other
+    /// recording's.
     pub(crate) fn plan_and(
         &self,
         keep: impl FnOnce() -> Result<(), DataError>,
@@ -83,8 +84,7 @@ impl LabelRun<'_> {
         let labeler = self.labeler()?;
         let tasks = self.tasks(&labeler)?;
         let _lock = self.lock()?;
-        keep()?;
-        let (folder, asked) = self.open_folder(observer)?;
+        let (folder, asked) = self.open_folder(keep, observer)?;
         let mut stretches = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
             folder.remember(identity, &task.names.sequence)?;

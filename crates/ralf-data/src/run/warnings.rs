@@ -3,6 +3,16 @@
 use super::LabelRun;
 use crate::read::inspection::held_motion;
 
+/// The sentence about sequences that were labelled, and are not there any more ([`Outcome::gone`]).
+///
+/// [`Outcome::gone`]: super::Outcome::gone
+pub fn told_gone(names: &[String]) -> String {
+    let names = names.join(", ");
+    format!(
+        "expected all sequences that were labelled from here, found none of {names}: their labels stay as they are"
+    )
+}
+
 impl LabelRun<'_> {
     /// What readers warn of, and which measurements lie outside of all that is known of the motion: a sentence each,
     /// after the name of its sequence.

@@ -210,6 +210,7 @@ mod tests {
         SequenceRecord {
             name: name.into(),
             fingerprint: String::new(),
+            recording: String::new(),
             table: None,
             radars: vec![radar],
             cameras: Vec::new(),

@@ -87,6 +87,22 @@ impl Dataset {
         Self { folder, path, out }
     }
 
+    /// The same with measurements that are in no other recording, as little as they differ.
+    pub(crate) fn of_another_drive(shape: &Shape) -> Self {
+        let dataset = Self::of(shape);
+        for name in shape.sequences {
+            for sensor in ["radar_front", "radar_left", "lidar_top"] {
+                for scan in 0..shape.scans {
+                    let file = format!("{}/sequences/{name}/{sensor}/{scan:06}.bin", dataset.path);
+                    let mut bytes = fs::read(&file).unwrap();
+                    bytes[0] ^= 1;
+                    fs::write(file, bytes).unwrap();
+                }
+            }
+        }
+        dataset
+    }
+
     /// Something beside the recording.
     pub(crate) fn beside(&self, name: &str) -> String {
         self.folder.path().join(name).to_str().unwrap().to_owned()
