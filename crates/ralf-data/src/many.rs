@@ -11,6 +11,7 @@ pub use tasks::{read_task, write_tasks};
 
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::open::recognised;
 use crate::read::{Recording, open_selected};
 use crate::result::Component;
 use crate::result::json::{read_json, write_json};
@@ -18,6 +19,7 @@ use crate::run::{
     Earlier, LabelRun, Observer, Outcome, Planned, Stretch, StretchOutcome, check_output_folder,
 };
 use crate::settings::Settings;
+use crate::tree::RECORD;
 use crate::views::{Lacking, lacking, with_stored};
 use ralf::config::Method;
 use ralf::learned::Model;
@@ -78,6 +80,8 @@ pub struct Plan {
     pub tasks: Vec<Task>,
     /// What became of results that lay in the output folder.
     pub earlier: Earlier,
+    /// What [`Recording::left_out`] says.
+    pub left_out: Vec<String>,
     /// Cameras of whose images the stores hold some, and not all that labelling asks for.
     pub lacking: Vec<Lacking>,
 }
@@ -99,14 +103,15 @@ impl Job {
         }
     }
 
-    /// Opens the recording, as the settings correct it.
+    /// Opens the recording, as the settings correct it, without the sequences that it [leaves
+    /// out](Recording::left_out).
     ///
     /// # Errors
     /// What can't be read, and sequences that aren't there.
     pub fn open(&self) -> Result<Recording, DataError> {
         let (format, topics) = (self.format.as_deref(), &self.settings.topics);
         let recording = open_selected(&self.recording, format, topics, &self.sequences)?;
-        let recording = self.settings.correct(recording)?.whole()?;
+        let recording = self.settings.correct(recording)?;
         with_stored(recording, self.depth.as_deref(), self.segmentation.as_deref())
     }
 
@@ -223,8 +228,9 @@ fn read_model(file: Option<&Path>) -> Result<Model, DataError> {
 /// machine that sees the same folders can do them, in any order.
 ///
 /// # Errors
-/// What [`LabelRun::plan`] refuses. [`assemble`] names the recording again, unless the folder has an earlier plan: that
-/// stays, as it does where others are at work on it.
+/// What [`LabelRun::plan`] refuses. [`assemble`] names the recording again, unless the folder has an earlier plan,
+/// which stays, as it does where others are at work on it, or labels that nobody planned. Of what is no recording
+/// nothing is left.
 pub fn plan(
     job: &Job,
     scans: NonZeroUsize,
@@ -236,15 +242,21 @@ pub fn plan(
     let file = job.out.join(PLAN);
     let keep = || write_json(&file, &job);
     let planned = job.with_run(jobs, |run| {
-        let lacking = job.lacking(run)?;
-        Ok((run.plan_and(keep, scans, observer)?, lacking))
+        let (left_out, lacking) = (run.recording.left_out(), job.lacking(run)?);
+        let Planned { stretches, earlier } = run.plan_and(keep, scans, observer)?;
+        let tasks = stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect();
+        Ok(Plan { tasks, earlier, left_out, lacking })
     });
-    if planned.is_err() && !files::exists(&file)? {
+    let has_no = |file: &Path| files::exists(file).map(|exists| !exists);
+    if planned.is_err() && is_recording(&job) && has_no(&file)? && has_no(&job.out.join(RECORD))? {
         keep()?;
     }
-    let (Planned { stretches, earlier }, lacking) = planned?;
-    let tasks = stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect();
-    Ok(Plan { tasks, earlier, lacking })
+    planned
+}
+
+/// Whether there is a recording, though it may be damaged.
+fn is_recording(Job { recording, format, .. }: &Job) -> bool {
+    format.as_ref().map_or_else(|| recognised(recording).is_some(), |_| recording.exists())
 }
 
 /// Does a part of a job. Tells which scans can't be labelled, and what others were labelled without.

@@ -42,6 +42,7 @@ pub(crate) fn check_left_out(path: &Path, [good, bad]: [&str; 2], words: &str) {
     assert!(lost.name == bad && told.contains(words), "{lost:?}");
     let chosen = open(&[good]).unwrap();
     assert_eq!((names(&chosen), chosen.incomplete.len()), (vec![good.to_owned()], 0));
+    assert_eq!(all.left_out(), [format!("{bad}: {told}")]);
     for refused in [open(&[bad]), open(&[good, bad]), all.whole()] {
         assert_eq!(refused.unwrap_err().to_string(), told);
     }

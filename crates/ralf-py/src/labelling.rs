@@ -129,8 +129,10 @@ pub(crate) fn plan(
     let job = job.resolve()?;
     let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
     let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
-    let earlier = plan.earlier.told(Earlier::PLANNED).into_iter();
-    Ok((tasks, earlier.chain(plan.lacking.iter().map(Lacking::words)).collect()))
+    let mut warnings = plan.earlier.told(Earlier::PLANNED);
+    warnings.extend(plan.left_out.iter().map(|sequence| format!("left out: {sequence}")));
+    warnings.extend(plan.lacking.iter().map(Lacking::words));
+    Ok((tasks, warnings))
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.

@@ -65,14 +65,16 @@ impl Recording {
         self.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect()
     }
 
-    /// What its reader warns of, a sentence each, after the name of its sequence.
+    /// Which sequences are left out, and what its reader warns of: a sentence each, with the name of its sequence.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let of_sequence = |reader: &dyn SequenceReader| {
             let name = &reader.sequence().name;
             reader.warnings().iter().map(|warning| format!("{name}: {warning}")).collect::<Vec<_>>()
         };
-        self.recording.sequences.iter().flat_map(|reader| of_sequence(reader.as_ref())).collect()
+        let left_out = self.recording.left_out().into_iter().map(|sequence| format!("left out: {sequence}"));
+        let of_sequences = self.recording.sequences.iter().flat_map(|reader| of_sequence(reader.as_ref()));
+        left_out.chain(of_sequences).collect()
     }
 
     /// Sensors, times and warnings of a sequence; JSON.

@@ -285,6 +285,39 @@ def test_a_picture_of_what_could_not_be_labelled_is_refused_or_warned_of(drive, 
         ralf.plot(run, name, scan=0, radar=radar, width=300)
 
 
+def without_motion(sequence):
+    """Takes from a sequence whatever tells how the vehicle moved."""
+    for file in ("odometry.csv", "poses.csv"):
+        (sequence / file).unlink(missing_ok=True)
+    sensors = sequence / "sequence.toml"
+    text = sensors.read_text().replace('"doppler"', '"speed"')
+    tables = text.split("\n[[")
+    sensors.write_text("\n[[".join(table for table in tables if not table.startswith("lidar]]")))
+
+
+def test_a_sequence_that_cannot_be_read_costs_the_others_nothing(drive, tmp_path):
+    """As with the command: it is left out, and this is a warning."""
+    (name,) = ralf.open(drive).sequences
+    recording = tmp_path / "drive"
+    shutil.copytree(drive, recording)
+    shutil.copytree(drive / "sequences" / name, recording / "sequences/unmoved")
+    without_motion(recording / "sequences/unmoved")
+    told = "left out: unmoved: .*the vehicle's motion"
+    with pytest.warns(UserWarning, match=told):
+        opened = ralf.open(recording)
+    assert opened.sequences == [name]
+    with pytest.warns(UserWarning, match=told):
+        run = ralf.label(recording, tmp_path / "out")
+    assert run.sequences == [name]
+    with pytest.warns(UserWarning, match=f"drive: {told}"):
+        plan = ralf.plan(recording, tmp_path / "many")
+    assert (len(plan), plan.failed) == (1, {})
+    with pytest.warns(UserWarning, match=f"drive: {told}"):
+        assert ralf.assemble(tmp_path / "many").failed == {}
+    with pytest.raises(ralf.RalfError, match="the vehicle's motion"):
+        ralf.open(recording, sequences=["unmoved"])
+
+
 def test_labels_of_another_recording_are_refused_and_what_is_gone_is_warned_of(drive, tmp_path, cli):
     (name,) = ralf.open(drive).sequences
     recording, other, out = tmp_path / "drive", tmp_path / "other", tmp_path / "out"

@@ -99,7 +99,7 @@ fn copied(recording: Recording) -> Recording {
 
 /// Says which sequences were left out and why: what was refused one by one, what is missing in one line for each
 /// reason. No damage is only that of radars' files: large data sets are published part by part, with tables of all.
-fn tell_left_out(recording: &Recording) {
+pub(crate) fn tell_left_out(recording: &Recording) {
     let all = recording.sequences.len() + recording.incomplete.len();
     let (mut damaged, mut not_copied) = (BTreeMap::<String, Vec<&str>>::new(), Vec::new());
     for Incomplete { name, lost } in &recording.incomplete {

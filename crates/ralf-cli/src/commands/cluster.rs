@@ -1,10 +1,10 @@
 //! `ralf cluster`: many recordings on many machines, by three steps that anything can start.
 
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, say_left_out};
 use crate::progress::{Stages, say};
 use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_gone, say_lacking};
-use crate::text::{grouped, print};
+use crate::text::{grouped, in_a_line, print};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use ralf_data::Settings;
@@ -136,6 +136,7 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
             Ok(plan) => {
                 let what = plan.earlier.told(Earlier::PLANNED);
                 what.iter().for_each(|line| say(&format!("{}: {line}", out.display())));
+                say_sequences_left_out(recording, &plan.left_out);
                 say_lacking(&plan.lacking);
                 planned.push((out.as_path(), plan.tasks));
             }
@@ -147,6 +148,13 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
     }
     print(&many::write_tasks(&arguments.output, &planned)?.to_string())?;
     Ok(outcome)
+}
+
+/// Names the sequences of a recording that can't be read: the others are labelled all the same.
+fn say_sequences_left_out(recording: &Path, left_out: &[String]) {
+    for sequence in left_out {
+        say_left_out(&format!("{}: {}", recording.display(), in_a_line(sequence)));
+    }
 }
 
 impl PlanArgs {
@@ -195,6 +203,7 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
         match many::assemble(folder, jobs, &stages) {
             Ok(done) => {
                 recordings += 1;
+                say_sequences_left_out(folder, &done.left_out);
                 say_gone(folder, &done.gone);
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();

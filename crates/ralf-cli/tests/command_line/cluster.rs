@@ -40,6 +40,20 @@ fn a_folder_that_nobody_planned_is_refused() {
 }
 
 #[test]
+fn what_is_no_recording_leaves_nothing_behind() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let [nothing, out, empty] = ["nothing", "many", "empty"].map(|name| dataset.beside(name));
+    fs::create_dir(&empty).unwrap();
+    for place in [&nothing, &empty] {
+        let planned = ralf(["cluster", "plan", "-q", place, "-o", &out]).exits(3).prints(["0"]);
+        planned.says(["not planned: ", place]);
+        assert!(!Path::new(&out).exists(), "{place}");
+    }
+    ralf(["cluster", "plan", "-q", &nothing, &dataset.path, "-o", &out]).exits(3).prints(["1"]);
+    assert!(!Path::new(&out).join("nothing").exists());
+}
+
+#[test]
 fn labels_of_another_recording_are_no_plans() {
     let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
     let other = Dataset::of_another_drive(&Shape { scans: 3, ..Shape::default() });

@@ -1,6 +1,6 @@
 //! Data sets that say themselves what is true of their detections: from a first look to a report, without label files.
 
-use crate::support::{radar_ghost, radar_scenes, ralf};
+use crate::support::{radar_ghost, radar_scenes, ralf, without_timings};
 use std::fs;
 
 #[test]
@@ -78,10 +78,36 @@ fn a_damaged_sequence_is_named_and_costs_the_others_nothing() {
     radar_scenes::write_sequence(&damaged, &radar_scenes::sequence(false));
     fs::write(damaged.join("scenes.json"), "{").unwrap();
     let [data, out] = [&data, &out].map(|path| path.to_str().unwrap());
-    let told = ["left out: sequence_2: ", "scenes.json: line 1"];
+    let told = ["left out: ", "sequence_2: ", "scenes.json: line 1"];
     ralf(["inspect", data]).exits(3).says(told);
     ralf(["label", data, "-o", out]).exits(3).says(told);
     let chosen = |name| ralf(["inspect", data, "--sequence", name]);
     assert!(!chosen("sequence_1").exits(0).stderr.contains("left out"));
     chosen("sequence_2").exits(1).ends_with_error(["scenes.json: line 1"]);
+    // Where many recordings are labelled, too.
+    let many = folder.path().join("many");
+    let many = many.to_str().unwrap();
+    ralf(["cluster", "plan", "-q", data, "-o", many]).exits(3).prints(["1"]).says(told);
+    ralf(["cluster", "label", many, "--task", "0"]).exits(0).says_nothing();
+    ralf(["cluster", "assemble", "-q", many]).exits(3).says(told).prints(["1 of 1 recordings"]);
+    let mut assembled = without_timings(format!("{many}/scenes"));
+    assert!(assembled.remove("plan.json").is_some());
+    assert!(assembled == without_timings(out));
+}
+
+#[test]
+fn a_damaged_sequence_is_left_out_of_what_is_learned() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, model] = ["scenes", "model"].map(|name| folder.path().join(name));
+    radar_scenes::write_dataset(&data);
+    let sequence = |number: u32| data.join(format!("data/sequence_{number}"));
+    for number in 1..=3 {
+        radar_scenes::write_sequence(&sequence(number), &radar_scenes::sequence(true));
+    }
+    fs::write(sequence(2).join("scenes.json"), "{").unwrap();
+    let [data, model] = [&data, &model].map(|path| path.to_str().unwrap());
+    ralf(["learn", data, "-o", model, "--rounds", "2", "--leaves", "2", "--no-neighbours", "-q"])
+        .exits(3)
+        .says(["left out: sequence_2: ", "scenes.json: line 1"])
+        .prints(["sequence_1", "sequence_3"]);
 }

@@ -28,11 +28,15 @@ enum Line {
 
 /// Writes down what was planned into the folder `out` now: the output folder of each recording, with its tasks. Of
 /// other recordings the tasks stay that were planned before, until they are put together. Returns how many lines there
-/// are; one that is empty has nothing to do.
+/// are; one that is empty has nothing to do. Where nothing could be planned, and nothing was before, nothing is
+/// written.
 ///
 /// # Errors
 /// What can't be read or written.
 pub fn write_tasks(out: &Path, planned: &[(&Path, Vec<Task>)]) -> Result<usize, DataError> {
+    if planned.is_empty() && !files::exists(out)? {
+        return Ok(0);
+    }
     let (file, lock) = (out.join(TASKS), out.join(LOCK));
     fs::create_dir_all(out).map_err(DataError::io(out))?;
     let alone = open_alone(&lock).map_err(DataError::io(&lock))?;

@@ -201,8 +201,15 @@ impl Recording {
     ///
     /// # Errors
     /// The first such reason. Parts that are missing are none.
-    pub fn whole(self) -> Result<Self, DataError> {
+    pub(crate) fn whole(self) -> Result<Self, DataError> {
         Ok(Self { incomplete: whole(self.incomplete)?, ..self })
+    }
+
+    /// The sequences that are left out, for they were refused, and why: a sentence each, after its name. Those that
+    /// lack parts were never there.
+    pub fn left_out(&self) -> Vec<String> {
+        let refused = self.incomplete.iter().filter(|one| matches!(one.lost, Lost::Refused(_)));
+        refused.map(|Incomplete { name, lost }| format!("{name}: {lost}")).collect()
     }
 
     /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.

@@ -90,6 +90,8 @@ pub struct Outcome {
     /// What became of earlier results. Of those that are gone it names the sequences that were not asked for; the
     /// others are labelled anew.
     pub earlier: Earlier,
+    /// What [`Recording::left_out`] says.
+    pub left_out: Vec<String>,
     /// Names of sequences that were labelled from where the recording lies, and of which it holds nothing any more:
     /// their labels stay. None where it was asked for by its sequences.
     pub gone: Vec<String>,
@@ -179,7 +181,8 @@ impl LabelRun<'_> {
         let mut record = folder.finish(finished, timings, checks)?;
         let gone = self.gone(&record);
         record.retain(|sequence| names.contains(&sequence.name));
-        Ok(Outcome { record, labelled, earlier, gone, warnings: self.warnings() })
+        let (left_out, warnings) = (self.recording.left_out(), self.warnings());
+        Ok(Outcome { record, labelled, earlier, left_out, gone, warnings })
     }
 
     /// The sequences of [`Outcome::gone`].

@@ -14,14 +14,15 @@ pub fn told_gone(names: &[String]) -> String {
 }
 
 impl LabelRun<'_> {
-    /// What readers warn of, and which measurements lie outside of all that is known of the motion: a sentence each,
-    /// after the name of its sequence.
+    /// Which sequences are left out and why, what readers warn of, and which measurements lie outside of all that is
+    /// known of the motion: a sentence each, with the name of its sequence.
     pub fn warnings(&self) -> Vec<String> {
+        let left_out = self.recording.left_out().into_iter().map(|sequence| format!("left out: {sequence}"));
         let of_sequence = self.recording.sequences.iter().flat_map(|reader| {
             let sequence = reader.sequence();
             let sentences = reader.warnings().iter().cloned().chain(held_motion(sequence));
             sentences.map(|sentence| format!("{}: {sentence}", sequence.name))
         });
-        of_sequence.collect()
+        left_out.chain(of_sequence).collect()
     }
 }

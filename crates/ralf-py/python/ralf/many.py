@@ -92,9 +92,10 @@ def plan(
     """Plan what is left to be done of recordings, or of one: tasks of so many radar scans at most, for `label_one`.
 
     The results of a recording go to a folder of its name in `out`. `depth` and `segmentation` are folders that `ralf
-    depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording
-    that can't be opened is named in `failed`, and costs the others nothing. What `out` holds of a recording with other
-    settings is removed, which is a warning. Plans and tasks tell paths as text, which must be UTF-8.
+    depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording that can't be opened is
+    named in `failed`, and costs the others nothing. What `out` holds of a recording with other settings is removed,
+    which is a warning; so is a sequence that can't be read, and is left out. Plans and tasks tell paths as text, which
+    must be UTF-8.
     """
     found = Plan()
     above_0(scans, "scans")

@@ -4,7 +4,7 @@ mod correct;
 mod text;
 mod worlds;
 
-use crate::arguments::{SettingsArgs, check_model, threads};
+use crate::arguments::{SettingsArgs, check_model, tell_left_out, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
 use crate::run_summary::{say_not_used, say_without};
@@ -224,7 +224,8 @@ impl LearnArgs {
         let mut outcome = Outcome::Done;
         for dataset in &self.datasets {
             let recording = ralf_data::open_with(dataset, None, &settings.topics)?;
-            let recording = settings.correct(recording)?.whole()?;
+            let recording = settings.correct(recording)?;
+            tell_left_out(&recording);
             let (truth, all_applied) = self.correct.truth(&recording)?;
             let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
             let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
