@@ -36,6 +36,12 @@ pub(crate) fn evaluate(
     Ok((to_json(&evaluation)?, orphaned))
 }
 
+/// Whether people said something of a run's labels.
+#[pyfunction]
+pub(crate) fn is_corrected(out: PathBuf) -> PyResult<bool> {
+    Ok(!Corrections::open(&out).map_err(data)?.is_empty())
+}
+
 /// Against the truth of a dataset, with what people corrected above it.
 fn compare(out: &Path, dataset: &Path) -> Result<(Evaluation, Vec<String>), DataError> {
     let (truth, orphaned) = corrected(out, dataset)?;

@@ -5,7 +5,7 @@ use crate::table::{Table, table_of};
 use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf_data::many::{self, Job, Task};
-use ralf_data::result::LabelledRun;
+use ralf_data::result::{Kind as ColumnKind, LabelledRun};
 use ralf_data::run::{Earlier, Outcome, read_record, told_gone};
 use ralf_data::views::Lacking;
 use ralf_data::{DataError, Settings};
@@ -182,6 +182,21 @@ pub(crate) fn folders(recordings: Vec<PathBuf>, out: PathBuf) -> PyResult<Vec<Pa
 #[pyfunction]
 pub(crate) fn record(out: PathBuf) -> PyResult<String> {
     to_json(&read_record(&out).map_err(data)?)
+}
+
+/// The names of the columns of numbers that each of these sequences' tables has.
+#[pyfunction]
+pub(crate) fn columns(out: PathBuf, sequences: Vec<String>) -> PyResult<Vec<Vec<String>>> {
+    let run = LabelledRun::open(&out).map_err(data)?;
+    let columns = |sequence: &String| {
+        let schema = run.whole_columns(sequence)?;
+        let numbers = schema
+            .columns()
+            .iter()
+            .filter(|column| !matches!(column.kind, ColumnKind::Text | ColumnKind::Truth));
+        Ok(numbers.map(|column| column.name.to_string()).collect())
+    };
+    sequences.iter().map(columns).collect::<Result<_, _>>().map_err(data)
 }
 
 /// The labelled detections of a sequence.

@@ -30,9 +30,11 @@ mod _ralf {
     #[pymodule_export]
     use super::errors::RalfError;
     #[pymodule_export]
-    use super::evaluation::{Truth, evaluate};
+    use super::evaluation::{Truth, evaluate, is_corrected};
     #[pymodule_export]
-    use super::labelling::{assemble, folders, label, label_one, plan, planned, record, settings, table};
+    use super::labelling::{
+        assemble, columns, folders, label, label_one, plan, planned, record, settings, table,
+    };
     #[pymodule_export]
     use super::memory::MemorySequence;
     #[pymodule_export]

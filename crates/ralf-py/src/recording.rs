@@ -99,6 +99,7 @@ impl Recording {
         let reader = self.reader(sequence)?;
         let radars = &reader.sequence().rig.radars;
         let index = place(radars.iter().map(|known| known.name.as_str()), radar)?;
+        self.refuse_beyond(sequence, radar, "scan", scan, reader.sequence().times.radars[index].len())?;
         let read = py
             .detach(|| reader.radar_scan(index, scan))
             .map_err(|error| data(DataError::Measurement { sensor: radar.to_owned(), index: scan, error }))?;
@@ -117,6 +118,7 @@ impl Recording {
     ) -> PyResult<(i64, Column, Column)> {
         let reader = self.reader(sequence)?;
         let index = place(reader.sequence().rig.lidars.iter().map(|known| known.name.as_str()), lidar)?;
+        self.refuse_beyond(sequence, lidar, "scan", scan, reader.sequence().times.lidars[index].len())?;
         let read = py
             .detach(|| reader.lidar_scan(index, scan))
             .map_err(|error| data(DataError::Measurement { sensor: lidar.to_owned(), index: scan, error }))?;
@@ -129,15 +131,13 @@ impl Recording {
         let Sequence { rig, times, .. } = reader.sequence();
         let index = place(rig.cameras.iter().map(|known| known.name.as_str()), camera)?;
         let times = &times.cameras[index];
-        let t_ns = times.get(image).copied().ok_or_else(|| {
-            other(format!("{camera}: expected an image below {}, found {image}", times.len()))
-        })?;
+        self.refuse_beyond(sequence, camera, "image", image, times.len())?;
         let read = || Ok((reader.image(index, image)?, reader.depth(index, image)?));
         let (pixels, depth) = py.detach(read).map_err(|error| {
             data(DataError::Measurement { sensor: camera.to_owned(), index: image, error })
         })?;
         let depth = depth.map(|views| views.into_iter().map(Column::of_depth).collect());
-        Ok((t_ns, Column::of_image(pixels), depth))
+        Ok((times[image], Column::of_image(pixels), depth))
     }
 }
 
@@ -146,6 +146,23 @@ impl Recording {
         let readers = &self.recording.sequences;
         let index = place(readers.iter().map(|reader| reader.sequence().name.as_str()), name)?;
         Ok(readers[index].as_ref())
+    }
+
+    /// Refuses the number of a measurement, of so many of a sensor, that isn't there.
+    fn refuse_beyond(
+        &self,
+        sequence: &str,
+        sensor: &str,
+        what: &str,
+        number: usize,
+        of: usize,
+    ) -> PyResult<()> {
+        if number < of {
+            return Ok(());
+        }
+        let place = format!("sequence {sequence}, {sensor}");
+        let expected = format!("one of its {of} {what}s, counted from 0");
+        Err(data(DataError::content(&self.recording.path, place, expected, number.to_string())))
     }
 }
 

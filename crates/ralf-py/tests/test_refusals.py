@@ -285,6 +285,38 @@ def test_a_picture_of_what_could_not_be_labelled_is_refused_or_warned_of(drive, 
         ralf.plot(run, name, scan=0, radar=radar, width=300)
 
 
+def test_a_picture_goes_on_without_a_lidar_scan_that_cannot_be_read(drive, tmp_path, cli):
+    """As with the command."""
+    (name,) = ralf.open(drive).sequences
+    recording = tmp_path / "drive"
+    shutil.copytree(drive, recording)
+    told = ralf.open(drive)[name]
+    lidar, times = next(iter(told.lidars.items()))
+    beside = int(np.argmin(np.abs(times - next(iter(told.radars.values()))[1])))
+    file = recording / "sequences" / name / lidar / f"{beside:06}.bin"
+    file.write_bytes(file.read_bytes()[:-3])
+    with pytest.warns(UserWarning, match=f"labelled without: {name} {lidar} {beside}"):
+        run = ralf.label(recording, tmp_path / "out")
+    with pytest.warns(UserWarning, match=rf"drawn without: {name} {lidar} scan {beside}: .*{file.name}"):
+        picture = ralf.plot(run, name, scan=1, width=1600)
+    cli("plot", recording, run.out, "--sequence", name, "--scan", 1, "-o", tmp_path / "scan.png")
+    assert picture.png == (tmp_path / "scan.png").read_bytes()
+    with pytest.warns(UserWarning, match="drawn without"):
+        ralf.plot(run, name, width=300)
+
+
+def test_measurements_that_there_are_none_of_are_refused(drive):
+    recording = ralf.open(drive)
+    (name,) = recording.sequences
+    told = recording[name]
+    for sensors, read in ((told.radars, recording.radar_scan), (told.lidars, recording.lidar_scan)):
+        sensor, times = next(iter(sensors.items()))
+        with pytest.raises(ralf.RalfError) as raised:
+            read(name, sensor, 999)
+        expected = f"one of its {len(times)} scans, counted from 0"
+        assert known(raised.value) == (str(drive), f"sequence {name}, {sensor}", expected, "999")
+
+
 def without_motion(sequence):
     """Takes from a sequence whatever tells how the vehicle moved."""
     for file in ("odometry.csv", "poses.csv"):

@@ -1,6 +1,10 @@
 """Scans for training, where PyTorch is at hand."""
 
 import shutil
+import subprocess
+import sys
+import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -101,6 +105,25 @@ def test_features_that_are_no_names_of_columns_are_refused(run):
         with pytest.raises(error, match=f"features: expected {found}"):
             ScanDataset(run, features)
     assert ScanDataset(run, np.array(FEATURES)).features == FEATURES
+    for feature in ("nosuch", "radar"):
+        with pytest.raises(KeyError, match=f"expected a column of numbers of scan, point, .*, found {feature}"):
+            ScanDataset(run, ["x", feature])
+
+
+def test_corrections_that_do_not_count_are_warned_of(run, drive, tmp_path, command):
+    recording, out = tmp_path / "drive", tmp_path / "out"
+    shutil.copytree(drive, recording)
+    shutil.copytree(run.out, out)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ScanDataset(out, FEATURES)
+    correct = Path(__file__).parents[3] / "testdata/correct_some.py"
+    subprocess.run([sys.executable, correct, recording, out, "1", "--ralf", *command], check=True, capture_output=True)
+    with pytest.warns(UserWarning, match="out: what people corrected doesn't count without `truth`"):
+        ScanDataset(out, FEATURES)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ScanDataset(out, FEATURES, truth=recording)
 
 
 def test_a_thread_gets_the_sequence_that_it_asks_for(run):

@@ -251,17 +251,34 @@ impl LabelledRun {
     /// # Errors
     /// A sequence that was not labelled; a table that is damaged.
     pub fn whole_table(&self, sequence: &str) -> Result<PlausibilityReader, DataError> {
+        PlausibilityReader::open_all(&self.table_file(self.told(sequence)?)?)
+    }
+
+    /// The columns of that table. Whether it is as it was written is found when its rows are read.
+    ///
+    /// # Errors
+    /// A sequence that was not labelled; a table that is none.
+    pub fn whole_columns(&self, sequence: &str) -> Result<Arc<Schema>, DataError> {
+        let schema = PlausibilityReader::all_columns_of(&self.place_of_table(self.told(sequence)?)?)?;
+        Ok(Arc::new(schema.with_scan()))
+    }
+
+    /// What the record tells of a sequence.
+    fn told(&self, sequence: &str) -> Result<&SequenceRecord, DataError> {
         let names = || self.record.sequences.iter().map(|record| record.name.as_str()).collect::<Vec<_>>();
-        let record = self.record.sequence(sequence).ok_or_else(|| DataError::UnknownSequence {
+        self.record.sequence(sequence).ok_or_else(|| DataError::UnknownSequence {
             name: sequence.to_owned(),
             known: names().join(", "),
-        })?;
-        PlausibilityReader::open_all(&self.table_file(record)?)
+        })
+    }
+
+    fn place_of_table(&self, record: &SequenceRecord) -> Result<PathBuf, DataError> {
+        Ok(self.places.plausibility_file(&super::checked("run.json, sequence", &record.name)?))
     }
 
     /// Where the table of a sequence lies, once it is found to be as it was written.
     fn table_file(&self, record: &SequenceRecord) -> Result<PathBuf, DataError> {
-        let file = self.places.plausibility_file(&super::checked("run.json, sequence", &record.name)?);
+        let file = self.place_of_table(record)?;
         if table_is_whole(&file, record)? { Ok(file) } else { Err(damaged(&file)) }
     }
 

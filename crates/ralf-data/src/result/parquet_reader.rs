@@ -68,15 +68,15 @@ impl PlausibilityReader {
     /// # Errors
     /// Those of [`Self::open`].
     pub fn open_all(file: &Path) -> Result<Self, DataError> {
-        let open = files::open(file)?;
-        let reader = SerializedFileReader::new(open).map_err(|error| unreadable(file, error))?;
-        let columns = reader.metadata().file_metadata().schema_descr().columns();
-        let place = |name: &str| columns.iter().position(|column| column.name() == name);
-        let further = match (place("elevation"), place("d_lm")) {
-            (Some(before), Some(after)) => columns.get(before + 1..after).unwrap_or_default(),
-            _ => &[],
-        };
-        Self::open(file, &Schema::around(further.iter().map(|column| field(column.name())).collect(), &[]))
+        Self::open(file, &with_fields(file)?)
+    }
+
+    /// The columns that [`Self::open_all`] reads, without a look at any row.
+    ///
+    /// # Errors
+    /// A file that is no result of `ralf label`.
+    pub(crate) fn all_columns_of(file: &Path) -> Result<Arc<Schema>, DataError> {
+        Self::columns_of(file, &with_fields(file)?)
     }
 
     /// Where it lies.
@@ -201,6 +201,18 @@ fn told(key: &RadarScanKey) -> String {
 
 fn unreadable(file: &Path, error: ParquetError) -> DataError {
     DataError::content(file, "Parquet", "a result of `ralf label`", error.to_string())
+}
+
+/// The columns of every result, with those that a file has between them: fields of its radars.
+fn with_fields(file: &Path) -> Result<Schema, DataError> {
+    let reader = SerializedFileReader::new(files::open(file)?).map_err(|error| unreadable(file, error))?;
+    let columns = reader.metadata().file_metadata().schema_descr().columns();
+    let place = |name: &str| columns.iter().position(|column| column.name() == name);
+    let further = match (place("elevation"), place("d_lm")) {
+        (Some(before), Some(after)) => columns.get(before + 1..after).unwrap_or_default(),
+        _ => &[],
+    };
+    Ok(Schema::around(further.iter().map(|column| field(column.name())).collect(), &[]))
 }
 
 /// Opens a file, and finds out what is read of it: the columns that are needed, and evidence.

@@ -114,8 +114,9 @@ def plot(
 
     Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in
     m; `color_by` names a column of numbers that a scan is coloured by, and wants one. The picture is `width` pixels
-    wide. The recording is the run's own if not given. Scans that could not be labelled are a warning each; a picture
-    of such scans alone is refused: it would show that nothing is plausible.
+    wide. The recording is the run's own if not given. Scans that could not be labelled are a warning each, and so are
+    LiDAR scans that can't be read, without which it is drawn; a picture of scans without labels alone is refused: it
+    would show that nothing is plausible.
     """
     source = recording or run.recording
     if source is None:
@@ -124,6 +125,6 @@ def plot(
         raise ValueError(f"color_by: expected a scan to colour, plot(..., scan=...), found none beside {color_by!r}")
     number = None if scan is None else whole(scan, "scan")
     pixels = whole(width, "width", 2**32 - 1)
-    png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, number, radar, radius, color_by, pixels)
-    warn_of([f"not labelled: {one}" for one in missing])
+    png, lacking = _ralf.plot(run.out, os.fsdecode(source), sequence, number, radar, radius, color_by, pixels)
+    warn_of(lacking)
     return Picture(png)

@@ -9,14 +9,17 @@ from __future__ import annotations
 import os
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from pathlib import Path
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 import torch
 from torch.utils.data import Dataset, IterableDataset, get_worker_info
 
+from ralf import _ralf
 from ralf._jobs import names
+from ralf._warnings import warn_of
 from ralf.judging import Truth
 from ralf.run import Run, Scan, load, refuse_unknown
 
@@ -44,10 +47,10 @@ class Batch(Sample):
 class ScanDataset(Dataset[Sample]):
     """The scans of runs, by number. Tables are read when they are first asked for, in each worker by itself.
 
-    Labels are RALF's own: without `truth` nothing that people corrected counts. `truth` is the dataset whose truth is
-    taken in place of them; what people corrected in a run's review counts above it, as in `ralf.evaluate`. A
-    `ralf.Truth` is taken as it is. A scan without truth is all unknown. `features` are names of columns; one that a
-    table lacks is a `KeyError` when that is read.
+    Labels are RALF's own: without `truth` nothing that people corrected counts, and where they did that is a warning.
+    `truth` is the dataset whose truth is taken in place of them; what people corrected in a run's review counts above
+    it, as in `ralf.evaluate`. A `ralf.Truth` is taken as it is. A scan without truth is all unknown. `features` are
+    names of columns of numbers; one that a table lacks is a `KeyError`.
 
     One sequence is in memory at a time, and another one is read when one of its scans is asked for: where scans of
     several sequences are drawn at random, every draw may read a whole table. `ScanStream` draws them by sequence.
@@ -76,10 +79,20 @@ class ScanDataset(Dataset[Sample]):
         refuse_unknown(sequences or [], (sequence["name"] for _, sequence in held), "sequence")
         chosen = [one for one in held if sequences is None or one[1]["name"] in sequences]
         refuse_unknown(radars or [], (radar for run, one in chosen for radar in run.radars_of(one["name"])), "radar")
+        self._refuse_other_features(chosen)
+        if truth is None:
+            corrected = [run.out for run in opened if _ralf.is_corrected(run.out)]
+            warn_of([f"{out}: what people corrected doesn't count without `truth`" for out in corrected])
         truths = [truth if isinstance(truth, Truth | None) else Truth(truth, run) for run in opened]
         for run, sequence in chosen:
             self._truths.append(truths[opened.index(run)])
             self._add(run.out, sequence, radars)
+
+    def _refuse_other_features(self, chosen: Sequence[tuple[Run, dict[str, Any]]]) -> None:
+        """Refuse features that a table has no column of: a training may read that table hours later."""
+        for run, held in groupby(chosen, lambda one: one[0]):
+            for columns in _ralf.columns(run.out, [sequence["name"] for _, sequence in held]):
+                refuse_unknown(self.features, columns, "column of numbers")
 
     def _add(self, out: Path, sequence: dict[str, object], radars: Sequence[str] | None) -> None:
         """Count a sequence's scans that hold detections, without reading its table."""
