@@ -144,6 +144,13 @@ impl Content {
             drawn_without,
         })
     }
+
+    /// The sequences that the truth says nothing of, while it does of others.
+    pub(crate) fn without_truth(&self) -> Vec<String> {
+        let without = self.comparison.as_ref().map_or(&[][..], |comparison| &comparison.without_truth);
+        let names = self.sequences.iter().map(|sequence| &sequence.name);
+        names.filter(|name| without.contains(name)).cloned().collect()
+    }
 }
 
 /// What is counted over the detections of one sequence.

@@ -55,6 +55,9 @@ pub struct Page {
     pub html: String,
     /// Sequences of the recording that are not labelled: the page names them.
     pub without_labels: Vec<String>,
+    /// Sequences that are not compared with the truth, for there is none of them, while there is of others: the page
+    /// names them.
+    pub without_truth: Vec<String>,
     /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not
     /// applied.
     pub orphaned: Vec<String>,
@@ -76,8 +79,9 @@ impl Report<'_> {
         progress("writing the page");
         let html = page::render(&content)?;
         let (orphaned, of_truth) = (content.truth.orphaned(), content.truth.lines());
+        let without_truth = content.without_truth();
         let Content { without_labels, drawn_without, .. } = content;
-        Ok(Page { html, without_labels, orphaned, drawn_without, of_truth })
+        Ok(Page { html, without_labels, without_truth, orphaned, drawn_without, of_truth })
     }
 }
 

@@ -51,6 +51,7 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     page.of_truth.iter().chain(&page.drawn_without).for_each(|line| say(line));
     say(&format!("wrote {}", arguments.output.display()));
     let outcome = say_orphaned(&page.orphaned);
+    say_without("truth", &page.without_truth);
     say_without("labels", &page.without_labels);
     let mut record = LabelledRun::open(&arguments.labels)?.record().clone();
     let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);

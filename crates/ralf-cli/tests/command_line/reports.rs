@@ -24,6 +24,23 @@ fn a_partly_labelled_recording_is_reported_as_far_as_it_is() {
     assert!(!fs::exists(&page).unwrap());
 }
 
+/// Truth may be there for some sequences by design.
+#[test]
+fn sequences_without_truth_are_named() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    let page = dataset.beside("report.html");
+    fs::remove_dir_all(format!("{}/sequences/01/ground_truth", dataset.path)).unwrap();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let told = "sequence 01 has no truth: left out";
+    ralf(["report", &dataset.path, &dataset.out, "-o", &page]).exits(0).says([told]);
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(html.contains("Sequences without truth") && html.contains("<li>01</li>"));
+    let chosen = ralf(["report", &dataset.path, &dataset.out, "-o", &page, "--sequence", "00"]).exits(0);
+    assert!(!chosen.stderr.contains("has no truth"), "{}", chosen.stderr);
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0).says([told]);
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).says([told]);
+}
+
 /// A report says how its labels are made again.
 #[test]
 fn the_settings_of_a_report_make_the_same_labels() {

@@ -188,6 +188,12 @@ fn left_out(content: &Content) -> Markup {
             h3 { "Sequences without labels" }
             ul { @for sequence in &content.without_labels { li { (sequence) } } }
         }
+        @let without_truth = content.without_truth();
+        @if !without_truth.is_empty() {
+            h3 { "Sequences without truth" }
+            p { "Labels are compared with the truth of the others." }
+            ul { @for sequence in &without_truth { li { (sequence) } } }
+        }
         @let orphaned = content.truth.orphaned();
         @if !orphaned.is_empty() {
             h3 { "Corrections that are not applied" }
