@@ -96,6 +96,21 @@ fn a_damaged_sequence_is_named_and_costs_the_others_nothing() {
 }
 
 #[test]
+fn a_task_of_a_sequence_that_was_damaged_since_it_was_planned_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, many] = ["scenes", "many"].map(|name| folder.path().join(name));
+    radar_scenes::write_dataset(&data);
+    let second = data.join("data/sequence_2");
+    radar_scenes::write_sequence(&second, &radar_scenes::sequence(false));
+    let [data, many] = [&data, &many].map(|path| path.to_str().unwrap());
+    ralf(["cluster", "plan", "-q", data, "-o", many]).exits(0).prints(["2"]);
+    fs::write(second.join("scenes.json"), "{").unwrap();
+    let label = |task| ralf(["cluster", "label", many, "--task", task]);
+    label("0").exits(0).says_nothing();
+    label("1").exits(1).ends_with_error(["sequence sequence_2: ", "scenes.json: line 1"]);
+}
+
+#[test]
 fn a_damaged_sequence_is_left_out_of_what_is_learned() {
     let folder = tempfile::tempdir().unwrap();
     let [data, model] = ["scenes", "model"].map(|name| folder.path().join(name));

@@ -13,6 +13,7 @@ use super::workspace::Workspace;
 use super::{LabelRun, Observer, Task, check_output_folder};
 use crate::error::DataError;
 use crate::frames::ScanIndex;
+use crate::read::Recording;
 use crate::result::{
     CameraRecord, NotLabelled, OutFolder, RunRecord, SequenceNames, UnreadableScan, read_record,
 };
@@ -114,11 +115,7 @@ impl LabelRun<'_> {
     ) -> Result<StretchOutcome, DataError> {
         let readers = &self.recording.sequences;
         let reader = readers.iter().find(|reader| reader.sequence().name == stretch.sequence);
-        let known = || readers.iter().map(|reader| reader.sequence().name.as_str()).collect::<Vec<_>>();
-        let reader = reader.ok_or_else(|| DataError::UnknownSequence {
-            name: stretch.sequence.clone(),
-            known: known().join(", "),
-        })?;
+        let reader = reader.ok_or_else(|| self.without(&stretch.sequence))?;
         let labeler = self.labeler()?;
         let names = SequenceNames::new(reader.sequence())?;
         let task = self.task(reader.as_ref(), names, &labeler)?;
@@ -132,6 +129,17 @@ impl LabelRun<'_> {
             return self.check_done(&run, stretch).map(|()| StretchOutcome::default());
         }
         self.label_planned(&task, stretch, &unfinished, observer)
+    }
+
+    /// Why there is no sequence of this name: it may have become unreadable since it was planned.
+    fn without(&self, name: &str) -> DataError {
+        let Recording { path, sequences, incomplete, .. } = self.recording;
+        if let Some(lost) = incomplete.iter().find(|lost| lost.name == name) {
+            let (place, reason) = (format!("sequence {name}"), lost.lost.to_string());
+            return DataError::Unsuitable { file: path.clone(), place, reason };
+        }
+        let known: Vec<&str> = sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        DataError::UnknownSequence { name: name.to_owned(), known: known.join(", ") }
     }
 
     fn label_planned(
