@@ -34,19 +34,13 @@ impl Message for Header {
     }
 }
 
-/// Seconds, which have a sign in ROS 2 only, and nanoseconds, which are less than one: more are of another time than
-/// anybody meant.
+/// Seconds, which have a sign in ROS 2 only, and nanoseconds.
 fn decode_time(decoder: &mut Decoder<'_>) -> Result<i64, EncodingError> {
     let seconds = match decoder.encoding() {
         Encoding::Ros1 => i64::from(decoder.u32()?),
         Encoding::Cdr => i64::from(decoder.i32()?),
     };
-    let nanoseconds = i64::from(decoder.u32()?);
-    if nanoseconds >= SECOND_NS {
-        let position = decoder.position() - size_of::<u32>();
-        return Err(EncodingError::new(position, "nanoseconds below 1000000000", nanoseconds.to_string()));
-    }
-    Ok(seconds * SECOND_NS + nanoseconds)
+    Ok(seconds * SECOND_NS + i64::from(decoder.u32()?))
 }
 
 fn encode_time(t_ns: i64, encoder: &mut Encoder) -> Result<(), EncodingError> {

@@ -76,19 +76,6 @@ fn holds<M: Message + PartialEq + std::fmt::Debug>(message: &M) -> Result<(), Te
     Ok(())
 }
 
-#[test]
-fn a_time_has_less_than_a_second_of_nanoseconds() {
-    let header = Header { stamp_ns: 7_999_999_999, ..Header::default() };
-    for (encoding, at) in ENCODINGS.into_iter().zip([8, 8]) {
-        let mut bytes = header.to_bytes(encoding).unwrap();
-        assert_eq!(Header::from_bytes(encoding, &bytes).unwrap(), header);
-        bytes[at..at + 4].copy_from_slice(&1_000_000_000_u32.to_le_bytes());
-        let error = Header::from_bytes(encoding, &bytes).unwrap_err();
-        assert_eq!((error.position, error.expected.as_str()), (at, "nanoseconds below 1000000000"));
-        assert_eq!(error.found, "1000000000");
-    }
-}
-
 /// A list of numbers of four bytes.
 fn returns() -> impl Strategy<Value = Vec<RadarReturn>> {
     let detection = any::<[f32; 5]>().prop_map(|[range, azimuth, elevation, doppler_velocity, amplitude]| {

@@ -10,21 +10,11 @@ const IMAGE: &[u8] = b"\x06\0\0\0camera\x01\0\0\0\x02\0\0\0\x04\0\0\0rgb8";
 
 /// A bag in which some of the messages that begin so have frames that are longer than all of it.
 fn damaged(drive: Drive, messages: &[u8], which: &[usize]) -> (TempDir, PathBuf) {
-    harmed(drive, messages, which, |bytes, at| bytes[at + 3] = 0xff)
-}
-
-/// A bag in which something is done to some of the messages that begin so, where they begin so.
-fn harmed(
-    drive: Drive,
-    messages: &[u8],
-    which: &[usize],
-    harm: impl Fn(&mut [u8], usize),
-) -> (TempDir, PathBuf) {
     let (folder, path) = Drive { bag: true, ..drive }.write();
     let mut bytes = std::fs::read(&path).unwrap();
     let is_one = |at: &usize| bytes[*at..].starts_with(messages);
     let found: Vec<usize> = (0..bytes.len()).filter(is_one).collect();
-    which.iter().for_each(|number| harm(&mut bytes, found[*number]));
+    which.iter().for_each(|number| bytes[found[*number] + 3] = 0xff);
     std::fs::write(&path, bytes).unwrap();
     (folder, path)
 }
@@ -46,17 +36,6 @@ fn a_radar_scan_that_can_not_be_read_stands_where_the_recorder_had_it() {
     assert_eq!([1, 2].map(|scan| drive.radar_scan(0, scan).unwrap().len()), [1, 0]);
     assert_eq!(drive.sequence().rig.radars[0].fields, ["x", "y", "z", "vx", "vy", "doppler"]);
     assert!(drive.warnings().is_empty() && drive.lost().is_empty(), "it is named where it is asked for");
-}
-
-/// Nobody can tell of which time it is.
-#[test]
-fn a_stamp_with_a_second_or_more_of_nanoseconds_is_damage() {
-    let (_folder, path) = harmed(Drive::default(), CLOUD, &[0], |bytes, at| bytes[at - 1] = 0x7f);
-    let drive = open_file(&path, TABLE).unwrap();
-    assert_eq!(drive.sequence().times.radars[0], [-5, 0, 140].map(|ms| T0 + ms * MS));
-    let error = drive.radar_scan(0, 0).unwrap_err().to_string();
-    assert!(error.contains("byte 8: expected nanoseconds below 1000000000, found 21"), "{error}");
-    assert_eq!([1, 2].map(|scan| drive.radar_scan(0, scan).unwrap().len()), [1, 0]);
 }
 
 #[test]
