@@ -113,10 +113,15 @@ fn labels_of_another_recording_are_left_as_they_are() {
             &other.path,
             "found those of another recording, ",
             there.to_str().unwrap(),
-            "with sequences of the same names (00): label into another folder",
+            "which would go (",
+            "): label into another folder, or move these labels away",
         ]);
         assert!(tree(&dataset.out) == before, "{more:?}");
     }
+    // With other settings all labels would go.
+    let all = ["label", &other.path, "-o", &dataset.out, "--sequence", "02", "--set", OTHER];
+    ralf(all).exits(1).ends_with_error(["those of another recording, ", "which would go (00, 01)"]);
+    assert!(tree(&dataset.out) == before);
     // Of what has no labels yet, nothing is lost.
     label(["--sequence", "02"]).exits(0).says_nothing();
     assert_eq!(recorded(&dataset), ["00", "01", "02"]);
@@ -138,6 +143,20 @@ fn a_recording_that_was_moved_or_changed_where_it_lies_is_the_same() {
     fs::remove_dir_all(format!("{moved}/sequences")).unwrap();
     fs::rename(format!("{}/sequences", other.path), format!("{moved}/sequences")).unwrap();
     ralf(["label", &moved, "-o", &dataset.out, "--sequence", "00"]).exits(0).says([told]);
+}
+
+#[test]
+fn where_a_recording_has_moved_to_it_may_change_as_it_likes() {
+    let dataset = two();
+    let other = Dataset::of_another_drive(&Shape { scans: 5, ..Shape::default() });
+    let moved = dataset.beside("moved");
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    fs::rename(&dataset.path, &moved).unwrap();
+    ralf(["label", &moved, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
+    fs::remove_dir_all(format!("{moved}/sequences")).unwrap();
+    fs::rename(format!("{}/sequences", other.path), format!("{moved}/sequences")).unwrap();
+    let told = "sequence 00 is labelled again: it is read from other inputs than before";
+    ralf(["label", &moved, "-o", &dataset.out]).exits(0).says([told]);
 }
 
 #[test]

@@ -205,11 +205,11 @@ impl Recording {
         Ok(Self { incomplete: whole(self.incomplete)?, ..self })
     }
 
-    /// The sequences that are left out, for they were refused, and why: a sentence each, after its name. Those that
-    /// lack parts were never there.
+    /// The sequences that are left out, for they were refused or lack a part, and why: a sentence each, after its name.
+    /// Those without any file of their radars were never there: large data sets are published part by part.
     pub fn left_out(&self) -> Vec<String> {
-        let refused = self.incomplete.iter().filter(|one| matches!(one.lost, Lost::Refused(_)));
-        refused.map(|Incomplete { name, lost }| format!("{name}: {lost}")).collect()
+        let damaged = self.incomplete.iter().filter(|one| !matches!(one.lost, Lost::Radars));
+        damaged.map(|Incomplete { name, lost }| format!("{name}: {lost}")).collect()
     }
 
     /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.

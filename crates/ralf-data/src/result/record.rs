@@ -41,7 +41,7 @@ pub struct RunRecord {
     /// What the check at the head of a run said, by sequence.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<CheckRecord>,
-    /// Of the last run; the only part that differs from run to run.
+    /// Of the last run; the only part that differs from run to run of a recording in one place.
     pub timings: Timings,
 }
 

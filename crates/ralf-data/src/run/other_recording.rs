@@ -16,6 +16,8 @@ pub(super) struct Labelled<'a> {
     pub(super) record: Option<&'a RunRecord>,
     /// What killed runs have finished.
     pub(super) finished: &'a [Finished],
+    /// Whether sequences that aren't asked for stay.
+    pub(super) stays: bool,
 }
 
 /// Where a recording lies, the same by all its names; empty where it isn't on disk.
@@ -23,53 +25,58 @@ pub(super) fn place_of(recording: &Path) -> String {
     recording.canonicalize().map_or_else(|_| String::new(), |place| place.to_string_lossy().into_owned())
 }
 
-/// Refuses a recording where the folder holds labels of another one under the same names.
+/// Refuses a recording for which labels of another one would go: those under the same names, and all of them where
+/// labels of other settings can't stay beside what is asked for.
 ///
 /// Another one lies elsewhere, and hardly any file of its sequences is what was labelled. One that was moved is the
-/// same, and so is one that changed where it lies; of names that only one of both has, nobody can tell.
+/// same, and so is one that changed where it lies. Of labels whose place an older record doesn't tell nobody knows.
 pub(super) fn refuse_other_recording(
     record_file: &Path,
     labelled: &Labelled,
     recording: &Path,
     asked: &[Identity],
 ) -> Result<(), DataError> {
-    let known = |asked: &Identity| labelled.sequence(&asked.name);
-    let told = asked.iter().filter(|asked| asked.is_told);
-    let both: Vec<_> = told.filter_map(|asked| Some((asked, known(asked)?))).collect();
-    let here = place_of(recording);
-    let is_here =
-        both.iter().any(|(asked, known)| known.recording == here || known.fingerprint == asked.fingerprint);
-    let Some((_, other)) = both.first().filter(|_| !is_here) else { return Ok(()) };
+    let told: Vec<&Identity> = asked.iter().filter(|asked| asked.is_told).collect();
     let inputs = labelled.inputs();
-    let earlier = |name: &str| inputs.get(name).map(Vec::as_slice).unwrap_or_default();
-    if both.iter().any(|(asked, _)| are_of_one_recording(earlier(&asked.name), &asked.inputs)) {
-        return Ok(());
-    }
-    let names: Vec<&str> = both.iter().map(|(asked, _)| asked.name.as_str()).collect();
-    let expected = format!("labels of {}, or none of its sequences yet", recording.display());
-    Err(DataError::content(record_file, "recording", expected, found(other, &names)))
+    let is_read_from = |known: &SequenceRecord, asked: &Identity| {
+        let earlier = inputs.get(known.name.as_str()).map(Vec::as_slice).unwrap_or_default();
+        known.fingerprint == asked.fingerprint || are_of_one_recording(earlier, &asked.inputs)
+    };
+    let of_name = |known: &SequenceRecord| told.iter().copied().find(|asked| asked.name == known.name);
+    let all: Vec<&SequenceRecord> = labelled.sequences().collect();
+    let same = all.iter().filter(|known| of_name(known).is_some_and(|asked| is_read_from(known, asked)));
+    // Where the recording lies, and where it lay.
+    let own: BTreeSet<String> =
+        same.map(|known| known.recording.clone()).chain([place_of(recording)]).collect();
+    let goes = |known: &&&SequenceRecord| match of_name(known) {
+        Some(asked) => known.fingerprint != asked.fingerprint,
+        None => !labelled.stays,
+    };
+    let is_others = |known: &&&SequenceRecord| !known.recording.is_empty() && !own.contains(&known.recording);
+    let lost: Vec<&SequenceRecord> = all.iter().filter(goes).filter(is_others).copied().collect();
+    let Some(first) = lost.first() else { return Ok(()) };
+    let names: Vec<&str> = lost.iter().map(|known| known.name.as_str()).collect();
+    let expected = format!("labels of {}, or none that would go", recording.display());
+    Err(DataError::content(record_file, "recording", expected, found(first, &names)))
 }
 
 fn found(other: &SequenceRecord, names: &[&str]) -> String {
-    let place = match other.recording.as_str() {
-        "" => String::new(),
-        place => format!(", {place}"),
-    };
     let more = match names.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
     let named = names[..names.len().min(SHOWN)].join(", ");
     format!(
-        "those of another recording{place}, with sequences of the same names ({named}{more}): label into another \
-         folder, or move these labels away"
+        "those of another recording, {}, which would go ({named}{more}): label into another folder, or move these \
+         labels away",
+        other.recording
     )
 }
 
 impl<'a> Labelled<'a> {
-    fn sequence(&self, name: &str) -> Option<&'a SequenceRecord> {
-        let finished = || self.finished.iter().map(|(sequence, _)| sequence).find(|found| found.name == name);
-        self.record.and_then(|record| record.sequence(name)).or_else(finished)
+    fn sequences(&self) -> impl Iterator<Item = &'a SequenceRecord> + use<'a> {
+        let recorded = self.record.into_iter().flat_map(|record| &record.sequences);
+        recorded.chain(self.finished.iter().map(|(sequence, _)| sequence))
     }
 
     /// What was labelled, by sequence.

@@ -6,7 +6,7 @@
 use super::earlier::Earlier;
 use super::inputs::Identity;
 use super::not_read;
-use super::other_recording::{Labelled, refuse_other_recording};
+use super::other_recording::{Labelled, place_of, refuse_other_recording};
 use super::results::Results;
 use super::unfinished::{Finished, Unfinished};
 use super::workspace::Workspace;
@@ -47,11 +47,12 @@ impl OutputFolder {
         // Of a record that this version can't read, nothing is known.
         let found = read_record(out).ok();
         let finished = folder.unfinished.finished()?;
-        let labelled = Labelled { record: found.as_ref(), finished: &finished };
+        let stays = found.as_ref().is_some_and(|found| found.is_like(&folder.record));
+        let labelled = Labelled { record: found.as_ref(), finished: &finished, stays };
         refuse_other_recording(&folder.record_file, &labelled, &recording.path, asked)?;
         accepted()?;
         match found {
-            Some(found) if found.is_like(&folder.record) => folder.record = found,
+            Some(found) if stays => folder.record = found,
             Some(other) => folder.remove_all(&other)?,
             None => {}
         }
@@ -105,19 +106,30 @@ impl OutputFolder {
         asked: &[Identity],
         recording: &Recording,
     ) -> Result<(), DataError> {
+        let has_moved = self.remember_places(&recording.path, asked);
         let fingerprints: Vec<_> =
             finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
         let known = |finished: &Finished| self.record.sequence(&finished.0.name).is_some();
         let new: Vec<_> = finished.into_iter().filter(|finished| !known(finished)).collect();
         self.record.add(new);
         let outdated = self.outdated(asked, recording)?;
-        if fingerprints.is_empty() && outdated.is_empty() {
+        if fingerprints.is_empty() && outdated.is_empty() && !has_moved {
             return Ok(());
         }
         outdated.iter().try_for_each(|sequence| self.results.remove(sequence))?;
         self.record.retain(|sequence| outdated.iter().all(|other| other.name != sequence.name));
         self.write_record()?;
         self.unfinished.forget(fingerprints.iter().map(String::as_str))
+    }
+
+    /// Writes down where the recording of what was labelled lies now. Tells whether it has moved.
+    fn remember_places(&mut self, recording: &Path, asked: &[Identity]) -> bool {
+        let place = place_of(recording);
+        let is_asked =
+            |known: &SequenceRecord| asked.iter().any(|asked| asked.fingerprint == known.fingerprint);
+        let moved =
+            self.record.sequences.iter_mut().filter(|known| is_asked(known) && known.recording != place);
+        moved.map(|known| known.recording.clone_from(&place)).count() > 0
     }
 
     /// The sequences that are asked for and have to be labelled again: read from other inputs or from none, damaged, or

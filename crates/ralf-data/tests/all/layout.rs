@@ -196,11 +196,6 @@ const WRONG_SETTINGS: &[(&str, &str, &str)] = &[
     ("\"rcs\"", "\"doppler\"", "fields: expected each name once, found `doppler`"),
     ("\"x\", \"y\", \"z\"", "\"x\", \"y\", \"z\", \"range\", \"azimuth\", \"elevation\"", "found both in"),
     ("\"x\", \"y\", \"z\"", "\"x\", \"y\"", "found neither in"),
-    (
-        "\"x\", \"y\", \"z\"",
-        "\"range\", \"azimuth\", \"elevation\", \"z\"",
-        "fields: expected no field of x, y, z beside range, azimuth, elevation, found `z`",
-    ),
     ("lowest_beam_deg = 25.0", "lowest_beam_deg = 0", "`lowest_beam_deg` above 0 and up to 90, found 0"),
     (
         "lowest_beam_deg = 25.0",

@@ -64,10 +64,7 @@ impl Coordinates {
         };
         match (of_kind(["x", "y", "z"]), of_kind(["range", "azimuth", "elevation"])) {
             (Some((x, y, z)), None) => Ok(Self::Cartesian { x, y, z }),
-            (None, Some((range, azimuth, elevation))) => {
-                refuse_beside_angles(radar)?;
-                Ok(Self::Spherical { range, azimuth, elevation })
-            }
+            (None, Some((range, azimuth, elevation))) => Ok(Self::Spherical { range, azimuth, elevation }),
             (found, _) => {
                 let found = if found.is_some() { "both" } else { "neither" };
                 Err(format!(
@@ -100,16 +97,6 @@ impl Coordinates {
             }
         }
     }
-}
-
-/// Refuses a field of x, y or z beside range, azimuth and elevation: a result has the vehicle's x, y and z under these
-/// names, and the field would be lost. Of a radar without elevation `z` is ignored, as it is everywhere.
-fn refuse_beside_angles(radar: &Radar) -> Result<(), String> {
-    let measured = radar.elevation == Elevation::Measured;
-    let mut names = ["x", "y", "z"].into_iter().filter(|name| measured || *name != "z");
-    names.find(|name| radar.column(name).is_some()).map_or(Ok(()), |name| {
-        Err(format!("expected no field of x, y, z beside range, azimuth, elevation, found `{name}`"))
-    })
 }
 
 /// Checks that a radar's fields name one kind of coordinates, completely. The error says what was expected.

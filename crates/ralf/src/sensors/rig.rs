@@ -120,7 +120,10 @@ impl Radar {
             "elevation" => self.elevation == Elevation::Measured,
             _ => false,
         };
-        self.column("x").filter(|_| is_told).and_then(|_| self.column(field))
+        let measured = self.elevation == Elevation::Measured;
+        let mut place = ["x", "y", "z"].into_iter().filter(|name| measured || *name != "z");
+        let is_placed = place.all(|name| self.column(name).is_some());
+        if is_told && is_placed { self.column(field) } else { None }
     }
 
     /// The column of a field.

@@ -54,7 +54,8 @@ pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
     let mut refined = Vec::new();
     for name in names(cases, |case| case.sequence.rig.lidars.iter().map(|lidar| &lidar.name).collect()) {
         let number = |case: &Case| case.sequence.rig.lidars.iter().position(|lidar| lidar.name == name);
-        let found = cases.iter().filter_map(|case| Some(case.lidar_changes[number(case)?]));
+        let judged = cases.iter().filter(|case| is_seen(case));
+        let found = judged.filter_map(|case| Some(case.lidar_changes[number(case)?]));
         let change = common(&found.collect::<Vec<_>>());
         for case in &mut *cases {
             number(case).into_iter().for_each(|lidar| case.lidar_changes[lidar] = change);
@@ -65,6 +66,12 @@ pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
         names(cases, |case| case.radars().map(|radar| &case.sequence.rig.radars[radar].name).collect());
     refined.extend(radars.iter().map(|name| of_radar(cases, name)));
     refined
+}
+
+/// Whether LiDARs and radars see so much together that LiDARs can be judged.
+fn is_seen(case: &Case) -> bool {
+    let mut seen = case.radars().map(|radar| case.overlap(radar, &SensorChange::default(), Measure::Beside));
+    seen.any(|tally| tally.is_enough())
 }
 
 /// Names of sensors, each once, in the order of the rigs.

@@ -34,15 +34,15 @@ fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
     let mut lines = Lines::new();
     for refinement in refined {
         let height = height_of(checks, &refinement.name);
+        let denied = denied_lidar(checks, refinement);
         for (setting, note) in settings(refinement, height) {
-            add(&mut lines, setting, &note, refinement.only_of.is_some());
+            let is_told = denied.is_some() || refinement.only_of.is_some();
+            add(&mut lines, setting, denied.as_ref().unwrap_or(&note), is_told);
         }
     }
     for verdict in doubted(checks) {
-        let known = refined.iter().any(|refinement| refinement.name == verdict.subject);
-        // A sensor's own change is told by its refinement.
         let Some(remedy) = verdict.remedy.as_ref() else { continue };
-        if !(known && matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))) {
+        if !(is_refined(checks, refined, &verdict.subject) && is_plan(remedy)) {
             let denied = denied(checks, verdict);
             for setting in remedy.settings(&verdict.subject) {
                 add(&mut lines, setting, denied.as_deref().unwrap_or_default(), denied.is_some());
@@ -50,6 +50,30 @@ fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
         }
     }
     lines
+}
+
+/// Whether a sensor's own change is told by its refinement: a radar's always, a LiDAR's where most ask for one.
+fn is_refined(checks: &[SequenceCheck], refined: &[Refinement], name: &str) -> bool {
+    let is_told = |own: &Refinement| is_radar(checks, name) || own.proposed != SensorChange::default();
+    refined.iter().any(|own| own.name == name && is_told(own))
+}
+
+fn is_radar(checks: &[SequenceCheck], name: &str) -> bool {
+    checks.iter().flat_map(|check| &check.figures).any(|figures| figures.name == name)
+}
+
+/// Whether a remedy is what refinements tell.
+fn is_plan(remedy: &Remedy) -> bool {
+    matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))
+}
+
+/// Where a LiDAR's change is in order as often as not: what refines it has not seen all sequences.
+fn denied_lidar(checks: &[SequenceCheck], refinement: &Refinement) -> Option<String> {
+    let is_own = |verdict: &&Verdict| {
+        verdict.subject == refinement.name && verdict.remedy.as_ref().is_some_and(is_plan)
+    };
+    let own = doubted(checks).find(is_own).filter(|_| !is_radar(checks, &refinement.name));
+    own.and_then(|verdict| denied(checks, verdict))
 }
 
 /// What has a remedy if anything has, of all sequences.
@@ -61,24 +85,35 @@ fn doubted(checks: &[SequenceCheck]) -> impl Iterator<Item = &Verdict> {
 /// Settings are those of all sequences: what is doubted in some of them is not proposed, but told, where it is in order
 /// in as many others or in more.
 fn denied(checks: &[SequenceCheck], doubt: &Verdict) -> Option<String> {
-    let is_said = |check: &SequenceCheck, state: State| {
-        check.verdicts.iter().any(|verdict| {
-            let is_asked = verdict.subject == doubt.subject || is_of_motion(doubt);
-            is_asked && (verdict.question, verdict.state) == (doubt.question, state)
-        })
+    let is_doubted = |check: &SequenceCheck| {
+        let is_like = |verdict: &Verdict| {
+            (&verdict.subject, verdict.question, verdict.state)
+                == (&doubt.subject, doubt.question, doubt.state)
+        };
+        check.verdicts.iter().any(is_like)
+    };
+    let is_good = |check: &SequenceCheck| {
+        let speaks =
+            |verdict: &Verdict| verdict.state == State::Good && speaks_against(checks, doubt, verdict);
+        !is_doubted(check) && check.verdicts.iter().any(speaks)
     };
     let names = |which: &dyn Fn(&SequenceCheck) -> bool| -> Vec<&str> {
         checks.iter().filter(|check| which(check)).map(|check| check.name.as_str()).collect()
     };
-    let doubted = names(&|check| is_said(check, doubt.state));
-    let good = names(&|check| is_said(check, State::Good) && !is_said(check, doubt.state));
+    let (doubted, good) = (names(&is_doubted), names(&is_good));
     let told = || format!("    # in {}; in order in {}", doubted.join(", "), good.join(", "));
     (good.len() >= doubted.len() && !good.is_empty()).then(told)
 }
 
-/// The motion's clock is in order where radars' are.
-fn is_of_motion(doubt: &Verdict) -> bool {
-    doubt.question == Question::Clock && matches!(doubt.remedy, Some(Remedy::MotionClock(_)))
+/// Whether something in order denies a doubt: the same of the same sensor, of the motion's clock that radars keep it,
+/// and of a LiDAR's place that radars lie on LiDARs.
+fn speaks_against(checks: &[SequenceCheck], doubt: &Verdict, good: &Verdict) -> bool {
+    let of_radar = |question: Question| good.question == question && is_radar(checks, &good.subject);
+    match &doubt.remedy {
+        Some(Remedy::MotionClock(_)) => of_radar(Question::Clock),
+        Some(remedy) if is_plan(remedy) && !is_radar(checks, &doubt.subject) => of_radar(Question::Lidar),
+        _ => (&good.subject, good.question) == (&doubt.subject, doubt.question),
+    }
 }
 
 /// The height that is missing of a sensor, m, by what stands on the ground.
@@ -108,6 +143,7 @@ fn settings(refinement: &Refinement, height: f64) -> Vec<(Setting, String)> {
     if shift_m[2] == 0.0 {
         shift_m[2] = height;
     }
+    let in_plan = shift_m[0] != 0.0 || shift_m[1] != 0.0;
     let rounded = |value: f64, digits: f64| (value * digits).round() / digits;
     let nothing = SensorChange::default();
     let turned = SensorChange { turn_deg: turn_deg.map(|value| rounded(value, 100.0)), ..nothing };
@@ -115,7 +151,7 @@ fn settings(refinement: &Refinement, height: f64) -> Vec<(Setting, String)> {
     let later = SensorChange { clock_ms: rounded(clock_ms, 10.0), ..nothing };
     let rows = [
         (turned, note(refinement, &[0], "degrees")),
-        (shifted, note(refinement, &[1, 2], "m")),
+        (shifted, if in_plan { note(refinement, &[1, 2], "m") } else { String::new() }),
         (later, note(refinement, &[3], "ms")),
         (SensorChange { mirrored, ..nothing }, String::new()),
     ];
@@ -143,7 +179,7 @@ fn note(refinement: &Refinement, which: &[usize], unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_check::Question;
+    use ralf_check::RadarFigures;
 
     fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
         super::text(checks, refined, &Settings::default()).unwrap()
@@ -217,16 +253,17 @@ mod tests {
     }
 
     fn with(name: &str, verdicts: Vec<Verdict>) -> SequenceCheck {
-        SequenceCheck { name: name.to_owned(), verdicts, figures: Vec::new() }
+        let figures = vec![RadarFigures { name: "radar".to_owned(), ..RadarFigures::default() }];
+        SequenceCheck { name: name.to_owned(), verdicts, figures }
     }
 
     #[test]
     fn a_pitch_is_proposed_where_the_plan_is_in_order() {
         let pitch = SensorChange { turn_deg: [0.0, 3.0, 0.0], ..SensorChange::default() };
         let question = Question::Lidar;
-        let verdicts = vec![doubt("a", question, Remedy::Sensor(pitch)), in_order("a", question)];
-        let text = text(&[with("00", verdicts)], &[turned("a", 0.0)]);
-        assert!(text.contains("\ncorrections.a.add_pitch_deg = 3.0\n"), "{text}");
+        let verdicts = vec![doubt("radar", question, Remedy::Sensor(pitch)), in_order("radar", question)];
+        let text = text(&[with("00", verdicts)], &[turned("radar", 0.0)]);
+        assert!(text.contains("\ncorrections.radar.add_pitch_deg = 3.0\n"), "{text}");
     }
 
     #[test]
@@ -242,15 +279,23 @@ mod tests {
     #[test]
     fn a_lidar_that_one_sequence_of_many_doubts_is_left_alone() {
         let far = SensorChange { turn_deg: [0.0, 0.0, 39.0], ..SensorChange::default() };
-        let verdicts = vec![doubt("a", Question::Motion, Remedy::Sensor(far))];
-        let checks = [with("00", verdicts), with("01", Vec::new()), with("02", Vec::new())];
-        assert!(text(&checks, &[turned("a", 0.0)]).ends_with("# Nothing is proposed.\n"));
+        let asking = || with("00", vec![doubt("a", Question::Motion, Remedy::Sensor(far))]);
+        let good = |name: &str| with(name, vec![in_order("radar", Question::Lidar)]);
+        let denied =
+            "\n# corrections.a.add_yaw_deg = 39.0    # in 00; in order in 01, 02\n# Nothing is proposed.\n";
+        // Whether its refinement has seen one sequence or all.
+        for refined in [turned("a", 0.0), turned("a", 39.0)] {
+            let text = text(&[asking(), good("01"), good("02")], &[refined]);
+            assert!(text.ends_with(denied), "{text}");
+        }
+        let alone = text(&[asking(), with("01", Vec::new())], &[turned("a", 39.0)]);
+        assert!(alone.contains("\ncorrections.a.add_yaw_deg = 39.0\n"), "{alone}");
     }
 
     #[test]
     fn the_clock_of_the_motion_is_denied_by_radars_that_keep_it() {
         let late = vec![doubt("motion", Question::Clock, Remedy::MotionClock(-200.0))];
-        let good = || vec![in_order("a", Question::Clock)];
+        let good = || vec![in_order("radar", Question::Clock)];
         let text = text(&[with("00", late), with("01", good()), with("02", good())], &[]);
         assert!(
             text.contains("\n# motion.time_offset_ms = -200.0    # in 00; in order in 01, 02\n"),
