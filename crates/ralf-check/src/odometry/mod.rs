@@ -10,7 +10,7 @@ mod registration;
 mod voxels;
 
 use ralf::sensors::{LidarScan, Source, SourceError, is_return};
-use ralf::space::{EgoMotion, Point, PoseSample, Transform};
+use ralf::space::{EgoMotion, Point, PoseSample, Transform, going_on};
 use registration::{Laid, lay};
 use voxels::{Voxels, thinned};
 
@@ -114,18 +114,11 @@ impl Way {
 
     /// All poses, and one on either side by the speed at the ends. None of fewer than two.
     fn poses(self) -> Vec<PoseSample> {
-        let [first, second, ..] = self.poses[..] else { return Vec::new() };
-        let [.., before, last] = self.poses[..] else { return Vec::new() };
-        let [head, tail] = [beyond(&second, &first), beyond(&before, &last)];
-        [head].into_iter().chain(self.poses).chain([tail]).collect()
+        if self.poses.len() < 2 {
+            return Vec::new();
+        }
+        going_on(self.poses, BEYOND_NS, STEPS)
     }
-}
-
-/// The pose at which the motion from one to another leads beyond it: before the first, of the second and the first.
-fn beyond(from: &PoseSample, end: &PoseSample) -> PoseSample {
-    let most_ns = end.t_ns.saturating_sub(from.t_ns).saturating_mul(STEPS);
-    let t_ns = end.t_ns.saturating_add(most_ns.clamp(-BEYOND_NS, BEYOND_NS));
-    PoseSample { t_ns, odom_from_vehicle: ahead(from, end, t_ns) }
 }
 
 /// Where the second scan may be: straight on at any speed.
@@ -134,15 +127,11 @@ fn starts(first: &PoseSample, t_ns: i64) -> Vec<Transform> {
     SPEEDS.iter().map(|speed| Transform::translation(speed * seconds, 0.0, 0.0)).collect()
 }
 
-/// The pose at a time when the motion between two others goes on.
+/// The pose at a time when the motion between two others goes on. A gap in the recording says nothing of a turn that
+/// goes on.
 fn ahead(before: &PoseSample, last: &PoseSample, t_ns: i64) -> Transform {
-    let step_ns = last.t_ns.saturating_sub(before.t_ns);
-    let share = if step_ns == 0 { 0.0 } else { t_ns.saturating_sub(last.t_ns) as f64 / step_ns as f64 };
-    let step = before.odom_from_vehicle.inv_mul(&last.odom_from_vehicle);
-    // A gap in the recording says nothing of a turn that goes on.
-    let share = share.min(STEPS as f64);
-    let turn = step.rotation.powf(share);
-    last.odom_from_vehicle * Transform::from_parts((step.translation.vector * share).into(), turn)
+    let most_ns = last.t_ns.saturating_sub(before.t_ns).saturating_mul(STEPS);
+    last.going_on(before, t_ns.saturating_sub(last.t_ns).min(most_ns)).odom_from_vehicle
 }
 
 #[cfg(test)]

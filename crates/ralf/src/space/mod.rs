@@ -12,6 +12,7 @@
 //! `vehicle_from_radar * p_radar = p_vehicle`.
 
 mod geometry;
+mod going_on;
 mod many_transforms;
 mod motion;
 mod neighbors;
@@ -19,6 +20,7 @@ mod recent;
 pub mod sync;
 
 pub use geometry::{Point, Spherical, Transform, Vector, check_rigid, transform_from_parts};
+pub use going_on::going_on;
 pub(crate) use many_transforms::{LANES, ManyTransforms};
 pub use motion::{EgoMotion, OdometrySample, PoseSample};
 pub use neighbors::{Neighbor, NeighborIndex};

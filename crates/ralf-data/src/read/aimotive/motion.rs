@@ -6,15 +6,15 @@ use crate::disk::files;
 use crate::disk::json;
 use crate::error::DataError;
 use crate::read::rotation::{Matrix, rigid};
-use ralf::space::{EgoMotion, PoseSample, Transform};
+use ralf::space::{EgoMotion, PoseSample, Transform, going_on};
 use ralf_files::Kind;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The motion of the two outermost poses goes on for so long beyond them, ns: points are measured from 68 ms before
-/// their frame to 32 ms after it, and radar scans up to 160 ms before it.
+/// their frame to 32 ms after it, and radar scans up to 160 ms before it. A single one tells none and is held.
 const BEYOND_NS: i64 = 300_000_000;
-/// ... and for so many of their steps at most: two that nearly coincide tell no speed.
+/// ... and for so many of their steps at most.
 const STEPS: i64 = 5;
 
 /// The motion at the frames' times, and the file that tells it; `None` where there is none.
@@ -60,23 +60,5 @@ fn poses(
     let Some((_, first)) = known.first() else { return Ok(Vec::new()) };
     let sample =
         |(t_ns, pose): &(i64, &Transform)| PoseSample { t_ns: *t_ns, odom_from_vehicle: first.inv_mul(pose) };
-    Ok(going_on(known.iter().map(sample).collect()))
-}
-
-/// These poses, and one on either side where the motion has gone on. A single pose tells none and is held.
-fn going_on(poses: Vec<PoseSample>) -> Vec<PoseSample> {
-    let ([first, second, ..], [.., before, last]) = (&poses[..], &poses[..]) else { return poses };
-    let [head, tail] = [ahead(second, first), ahead(before, last)];
-    [head].into_iter().chain(poses).chain([tail]).collect()
-}
-
-/// Where the motion from one pose to another leads after it; before it, of a later and an earlier one.
-fn ahead(from: &PoseSample, to: &PoseSample) -> PoseSample {
-    let step_ns = to.t_ns.saturating_sub(from.t_ns);
-    let beyond_ns = step_ns.saturating_mul(STEPS).clamp(-BEYOND_NS, BEYOND_NS);
-    let share = beyond_ns as f64 / step_ns as f64;
-    let step = from.odom_from_vehicle.inv_mul(&to.odom_from_vehicle);
-    let further = Transform::from_parts((step.translation.vector * share).into(), step.rotation.powf(share));
-    let odom_from_vehicle = to.odom_from_vehicle * further;
-    PoseSample { t_ns: to.t_ns.saturating_add(beyond_ns), odom_from_vehicle }
+    Ok(going_on(known.iter().map(sample).collect(), BEYOND_NS, STEPS))
 }
