@@ -14,7 +14,7 @@ const FAR_TURN: f64 = 45.0;
 /// So far to either side of a place that is the right one much less fits, degrees.
 const FOOT: f64 = 10.0;
 /// So much later than a time that is the right one much less fits, or as much earlier, ms.
-const FOOT_MS: f64 = 300.0;
+pub(super) const FOOT_MS: f64 = 300.0;
 
 /// Turns by which a sensor looks at something else, degrees.
 const ELSEWHERE: [f64; 6] = [-150.0, -90.0, -30.0, 30.0, 90.0, 150.0];
@@ -43,11 +43,14 @@ pub(super) fn shifts() -> impl Iterator<Item = SensorChange> {
 /// By which factor a change has to be better that several radars ask for alike.
 pub(super) const GAIN: f64 = 1.08;
 
-/// By which factor a change of a single radar has to be better. A shift, or a clock's offset, which is one along the
-/// way, brings what lies beside narrow things, such as clutter before a garage's walls, onto them: half a metre that
-/// is truly missing gains more than this.
+/// By which factor a shift has to be better, or a clock's offset, which is one along the way: either brings what lies
+/// beside narrow things, such as clutter before a garage's walls, onto them. Half a metre that is truly missing gains
+/// more than this.
+pub(super) const GAIN_OF_SHIFT: f64 = 1.3;
+
+/// By which factor a change of a single radar has to be better.
 pub(super) fn gain_of_one(change: &SensorChange) -> f64 {
-    if change.shift_m == [0.0; 3] && change.clock_ms == 0.0 { GAIN } else { 1.3 }
+    if change.shift_m == [0.0; 3] && change.clock_ms == 0.0 { GAIN } else { GAIN_OF_SHIFT }
 }
 
 /// The change with the best tally, if it beats the present one.

@@ -1,7 +1,7 @@
 //! Whether a clock stays the same: where scans were lost whose times stayed, all that come after have the times of
 //! earlier ones.
 
-use super::alternatives::{clocks, shifts, yaws};
+use super::alternatives::{FOOT_MS, GAIN_OF_SHIFT, clocks, shifts, yaws};
 use super::case::Case;
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Setup, Tally, overlap};
@@ -13,10 +13,6 @@ use crate::verdict::{Question, Verdict};
 const PART: f64 = 0.4;
 /// Offsets that differ by less are a scan's length, ms.
 const OTHER_MS: f64 = 200.0;
-/// So much later or earlier than the right time fits worse, ms: along rails and walls any time fits.
-const FOOT_MS: f64 = 300.0;
-/// A part's own offset has to be so many times better than the other's, as any clock of a single sensor.
-const DENIES: f64 = 1.3;
 /// What it may be; of an only radar the LiDAR's as well.
 const ITS_OWN: &str = "its clock may drift, or scans were lost whose times stayed";
 const OR_LIDARS: &str = "its clock or a LiDAR's may drift, or scans of one were lost whose times stayed";
@@ -96,11 +92,13 @@ fn clocks_of_parts<T>(looks: &[T], tally: impl Fn(&[T], &SensorChange) -> Tally)
         let tried = [0.0].into_iter().chain(clocks().map(|clock| clock.clock_ms));
         let tried = tried.map(|ms| (ms, at(part, ms)));
         let (ms, then) = tried.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))?;
+        // Along rails and walls any time fits.
         let is_peak = [-FOOT_MS, FOOT_MS].iter().all(|foot| at(part, ms + foot).is_beaten_by(&then));
         is_peak.then_some((ms, then))
     };
     let (first, last) = (best(0)?, best(1)?);
-    let denies = |part: usize, own: &Tally, other: f64| at(part, other).is_beaten_by_factor(own, DENIES);
+    let denies =
+        |part: usize, own: &Tally, other: f64| at(part, other).is_beaten_by_factor(own, GAIN_OF_SHIFT);
     let differ = (first.0 - last.0).abs() >= OTHER_MS;
     let is_told = differ && denies(0, &first.1, last.0) && denies(1, &last.1, first.0);
     is_told.then_some([first.0, last.0])

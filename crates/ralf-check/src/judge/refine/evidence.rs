@@ -67,6 +67,11 @@ impl<'a> Evidence<'a> {
         self.likelihoods(values).iter().flatten().sum::<f64>() - values.norm_squared() / 2.0
     }
 
+    /// How many stretches of time there are, of all drives.
+    pub(super) fn stretches(&self) -> usize {
+        self.drives.len() * STRETCHES
+    }
+
     /// The parts of the evidence in which anything was measured.
     pub(super) fn observed(&self) -> Parts<bool> {
         self.drives.iter().flat_map(Drive::observed).collect()

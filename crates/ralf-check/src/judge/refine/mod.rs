@@ -119,19 +119,21 @@ fn of_radar(cases: &[Case], name: &str) -> Refinement {
 
 /// From drives of one mounting: those in which the LiDARs see what the radar sees, and something can be judged.
 fn of_drives(drives: &[(&Case, usize)], name: &str) -> Refinement {
-    let changes = |drives: &[(&Case, usize)]| -> Vec<SensorChange> {
-        drives.iter().map(|(case, radar)| case.radar_changes[*radar]).collect()
+    let change = |(case, radar): &(&Case, usize)| case.radar_changes[*radar];
+    let judged = drives.iter().filter_map(|drive| Some((*drive, judgeable(drive)?)));
+    let judged: Vec<_> = judged.filter(|(_, open)| open.contains(&true)).collect();
+    let changes: Vec<SensorChange> = match judged.is_empty() {
+        true => drives.iter().map(change).collect(),
+        false => judged.iter().map(|(drive, _)| change(drive)).collect(),
     };
-    let mut telling = drives.to_vec();
-    telling.retain(|drive| tells(drive.0, drive.1) && judgeable(drive).contains(&true));
-    let base = common(&changes(if telling.is_empty() { drives } else { &telling }));
-    telling.retain(|(case, radar)| is_alike_besides(&case.radar_changes[*radar], &base));
+    let base = common(&changes);
+    let telling = judged.into_iter().filter(|(drive, _)| is_alike_besides(&change(drive), &base));
+    let (telling, opens): (Vec<_>, Vec<Open>) = telling.unzip();
     if telling.is_empty() {
         return as_found(name, base);
     }
     let evidence = Evidence::of(&telling, base);
-    let all: Vec<Open> = telling.iter().map(judgeable).collect();
-    let (open, values) = found(&evidence, std::array::from_fn(|i| all.iter().any(|open| open[i])));
+    let (open, values) = found(&evidence, std::array::from_fn(|i| opens.iter().any(|open| open[i])));
     let deviations = deviations(&evidence, &values, open);
     Refinement {
         change: evidence.change(&values),
@@ -155,12 +157,6 @@ fn mounted_alike<'a>(all: &[(&'a Case<'a>, usize)]) -> Vec<(&'a Case<'a>, usize)
 fn is_mounted_alike(a: &Transform, b: &Transform) -> bool {
     let apart = (a.translation.vector - b.translation.vector).norm();
     apart < SAME_PLACE && a.rotation.angle_to(&b.rotation) < SAME_DIRECTION
-}
-
-/// `false` where the LiDARs don't see what the radar sees: whatever would lay one onto the other is chance.
-fn tells(case: &Case, radar: usize) -> bool {
-    let beside = case.overlap(radar, &SensorChange::default(), Measure::Beside);
-    !beside.is_enough() || beside.is_above_chance(&case.elsewhere(radar))
 }
 
 /// The likeliest values of what is open. A LiDAR that doesn't tell how far along the way things are would pull at that
@@ -228,14 +224,19 @@ fn without(evidence: &Evidence, values: &Values, mut open: Open, quantity: usize
 }
 
 /// Which quantities can be judged in a drive: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by
-/// the LiDAR or by speeds that change.
-fn judgeable((case, radar): &(&Case, usize)) -> Open {
-    let by_lidar = case.overlap(*radar, &SensorChange::default(), Measure::Beside).is_enough();
+/// the LiDAR or by speeds that change. `None` where the LiDARs don't see what the radar sees: whatever would lay one
+/// onto the other is chance.
+fn judgeable((case, radar): &(&Case, usize)) -> Option<Open> {
+    let beside = case.overlap(*radar, &SensorChange::default(), Measure::Beside);
+    let by_lidar = beside.is_enough();
+    if by_lidar && !beside.is_above_chance(&case.elsewhere(*radar)) {
+        return None;
+    }
     let mount = case.mount(*radar);
     let figures = case.doppler(*radar, &case.motion, &mount);
     let timed = figures.and_then(|figures| clock(&case.fits[*radar], &case.motion, &mount, &figures));
     let by_speeds = timed.is_some_and(|clock| clock.is_sharp);
-    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || by_speeds]
+    Some([by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || by_speeds])
 }
 
 #[cfg(test)]

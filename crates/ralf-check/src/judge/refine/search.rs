@@ -170,7 +170,7 @@ fn disagreement(slopes: &[Values]) -> Matrix4<f64> {
 
 /// How each part of the evidence would have the values changed.
 fn slopes(evidence: &Evidence, values: &Values, open: Open) -> Parts<Values> {
-    let mut slopes = vec![[Values::zeros(); KINDS]; evidence.observed().len()];
+    let mut slopes = vec![[Values::zeros(); KINDS]; evidence.stretches()];
     for i in (0..4).filter(|i| open[*i]) {
         let [behind, ahead] = [-1.0, 1.0].map(|side| evidence.likelihoods(&(values + reach(i) * side)));
         let ends = behind.iter().flatten().zip(ahead.iter().flatten());
