@@ -2,12 +2,16 @@
 
 use crate::read::corrections::{Altered, MotionSource, SensorCorrection};
 use crate::read::recording::SequenceReader;
+use ralf::scene::Doppler;
 use ralf::sensors::{
-    CameraImage, ClassImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError,
+    CameraImage, ClassImage, DepthImage, LidarScan, Radar, RadarScan, Sequence, Source, SourceError,
 };
 use ralf::space::EgoMotion;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// The field of range rates without the vehicle's motion.
+const COMPENSATED: &str = "doppler_compensated";
 
 /// A sequence with corrections.
 pub(super) struct Corrected {
@@ -75,7 +79,11 @@ impl Source for Corrected {
                 column.iter_mut().for_each(|value| *value *= factor);
             }
         }
-        Ok(RadarScan::new(sensor, correction.time(t_ns), columns)?)
+        let mut scan = RadarScan::new(sensor, correction.time(t_ns), columns)?;
+        if correction.doppler_factor != 1.0 {
+            compensate(sensor, &mut scan, &self.sequence.motion);
+        }
+        Ok(scan)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
@@ -123,9 +131,22 @@ fn factor(correction: &SensorCorrection, field: &str) -> f64 {
         "x" | "z" | "range" => position_factor,
         "y" => position_factor * mirror,
         "azimuth" | "vy" | "vy_comp" => mirror,
-        "doppler" => doppler_factor,
+        "doppler" | COMPENSATED => doppler_factor,
         _ => 1.0,
     }
+}
+
+/// Range rates without the vehicle's motion, of those that were corrected: what a recorder made of its motion and of
+/// rates in another unit, or with another sign, no factor puts right. Where one is missing the other is left as it is.
+fn compensate(radar: &Radar, scan: &mut RadarScan, motion: &EgoMotion) {
+    let Some(place) = radar.column(COMPENSATED).filter(|_| motion.is_known()) else { return };
+    let told = std::mem::take(&mut scan.columns[place]);
+    scan.columns[place] = vec![f32::NAN; told.len()];
+    let anew = Doppler::new(radar, scan, motion).map_or(Vec::new(), |rates| rates.compensated);
+    let anew = anew.into_iter().map(|rate| rate as f32).chain(std::iter::repeat(f32::NAN));
+    let both = told.iter().zip(anew);
+    scan.columns[place] =
+        both.map(|(told, anew)| if told.is_nan() || anew.is_nan() { *told } else { anew }).collect();
 }
 
 impl SequenceReader for Corrected {
@@ -158,6 +179,45 @@ impl SequenceReader for Corrected {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ralf::sensors::{Elevation, Reliability};
+    use ralf::space::{OdometrySample, Transform};
+
+    fn radar(fields: &[&str]) -> Radar {
+        Radar {
+            name: "front".into(),
+            fields: fields.iter().map(|name| (*name).to_owned()).collect(),
+            vehicle_from_radar: Transform::translation(3.0, 0.0, 0.5),
+            elevation: Elevation::None,
+            fov_azimuth: 2.0,
+            fov_elevation: 0.3,
+            sigma_range: 0.1,
+            sigma_azimuth: 0.01,
+            sigma_elevation: 0.0,
+            reliability: Reliability::default(),
+        }
+    }
+
+    #[test]
+    fn compensated_rates_are_of_the_corrected_ones() {
+        // At 5 m/s: a wall 10 m ahead, a car that drives as fast, and a row without a compensated rate.
+        let motion =
+            EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.0 }], vec![]).unwrap();
+        let compensated = |motion: &EgoMotion, fields: &[&str], columns: Vec<Vec<f32>>| {
+            let radar = radar(&[&["x", "y"], fields].concat());
+            let ahead = vec![vec![10.0; columns[0].len()], vec![0.0; columns[0].len()]];
+            let columns = ahead.into_iter().chain(columns).collect();
+            let mut scan = RadarScan::new(&radar, 0, columns).unwrap();
+            compensate(&radar, &mut scan, motion);
+            scan.columns.last().unwrap().clone()
+        };
+        let both = ["doppler", COMPENSATED];
+        let told = vec![vec![-5.0, 0.0, -5.0], vec![10.0, -5.0, f32::NAN]];
+        let anew = compensated(&motion, &both, told.clone());
+        assert_eq!(anew[..2], [0.0, 5.0]);
+        assert!(anew[2].is_nan(), "what the recording doesn't hold");
+        assert_eq!(compensated(&EgoMotion::unknown(), &both, told)[..2], [10.0, -5.0], "of no motion");
+        assert_eq!(compensated(&motion, &[COMPENSATED], vec![vec![1.5]]), [1.5], "of nothing else");
+    }
 
     #[test]
     fn what_is_mirrored_keeps_its_range_rates() {
