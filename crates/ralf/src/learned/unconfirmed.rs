@@ -1,12 +1,13 @@
-//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, behind a wall,
-//! or where no ray goes and no other scan of a radar had a say; and no LiDAR point near, neither where it would be if
-//! it stood still nor where its range rate takes it.
+//! What nobody but the radar tells of: where a LiDAR sees as far, beyond the reach of the LiDAR's map, or where no ray
+//! goes and no other scan of a radar had a say; and behind a wall, however far LiDARs see. No LiDAR point is near,
+//! neither where it would be if it stood still nor where its range rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
 //! real road nobody can check it. As the paper does, what neither another sensor nor time confirms counts less: the
 //! setting `learned.unconfirmed` says by how much. Where a radar hears farther than any LiDAR sees, silence says
-//! nothing, and the model keeps its word. It does so, too, where the radar saw the place again in half of its scans and
-//! radars looked from elsewhere: far away a LiDAR hits a guard rail every few metres, and misses what a radar hears.
+//! nothing, and the model keeps its word unless a wall is in the way. It does so, too, where the radar saw the place
+//! again in half of its scans and radars looked from elsewhere: far away a LiDAR hits a guard rail every few metres,
+//! and misses what a radar hears.
 
 use super::calibration::with_odds;
 
@@ -61,13 +62,13 @@ impl Unconfirmed {
         }
     }
 
-    /// Whether a LiDAR sees so far, but can't speak of the place, and of its points none is near. It can't where the
-    /// place lies beyond its map: then none of the nearest scan may be within 2.5 m, and the radar may not have seen
-    /// it again in half of its scans, if radars looked from elsewhere. Nor can it where no ray goes: of that the
-    /// model judges by what time tells, so only what no other scan of the radar could have seen is meant. Nor can it
-    /// where all rays end before the place and the last thing in the radar's way is a wall, over 2.5 m high and at
-    /// least 4 m long: then no scan around may have a point within 3 sigmas. Nor may any scan around have one where
-    /// its range rate takes the detection, if it moves.
+    /// Whether no LiDAR can speak of the place, and of its points none is near. A LiDAR that sees so far can't where
+    /// the place lies beyond its map: then none of the nearest scan may be within 2.5 m, and the radar may not have
+    /// seen it again in half of its scans, if radars looked from elsewhere. Nor can it where no ray goes: of that the
+    /// model judges by what time tells, so only what no other scan of the radar could have seen is meant. However far a
+    /// LiDAR sees, it can't where no ray goes past the place and the last thing in the radar's way is a wall, over
+    /// 2.5 m high and at least 4 m long: then no scan around may have a point within 3 sigmas. Nor may any scan around
+    /// have one where its range rate takes the detection, if it moves.
     pub(super) fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
         let unseen = value(self.unseen);
