@@ -149,6 +149,8 @@ struct True {
     /// How people saw it labelled.
     shown: Option<bool>,
     cause: u8,
+    /// Somebody took its label away: nothing is known of it, and it wasn't left alone.
+    unlabeled: bool,
 }
 
 impl<'a> Task<'a> {
@@ -216,7 +218,7 @@ impl<'a> Task<'a> {
         for (row, (truth, label)) in truth.iter().zip(&labels).enumerate() {
             // A detection without a place has no evidence.
             let Some(detection) = &frame.scan.detections[row] else { continue };
-            if truth.plausible.is_none() && !gathers_unsaid {
+            if truth.plausible.is_none() && (truth.unlabeled || !gathers_unsaid) {
                 continue;
             }
             kept.push(row);
@@ -240,13 +242,13 @@ impl<'a> Task<'a> {
     /// What is true of a scan's detections, or why nobody knows.
     fn true_of(&self, place: ScanIndex, detections: usize) -> Result<Result<Vec<True>, String>, DataError> {
         let id = self.id(place);
-        let (labels, causes, file) = match self.truth {
+        let (labels, causes, file, unlabeled) = match self.truth {
             TrainingTruth::Known => match self.reader.truth(place.radar, place.scan) {
-                Ok(Some(truth)) => (truth.labels, Some(truth.causes), PathBuf::new()),
+                Ok(Some(truth)) => (truth.labels, Some(truth.causes), PathBuf::new(), Vec::new()),
                 Ok(None) => return Ok(Err("its truth is not known".to_owned())),
                 Err(error) => return Ok(Err(error.to_string())),
             },
-            TrainingTruth::Said(truth) => (truth.labels(&id)?, None, truth.file(&id)),
+            TrainingTruth::Said(truth) => (truth.labels(&id)?, None, truth.file(&id), truth.unlabeled(&id)?),
         };
         if labels.len() != detections {
             let (expected, found) = (format!("{detections} as in the scan"), labels.len().to_string());
@@ -259,6 +261,7 @@ impl<'a> Task<'a> {
             plausible: truth_of(label.id),
             shown: shown.get(row).copied().flatten(),
             cause: cause(row),
+            unlabeled: unlabeled.binary_search(&(row as u32)).is_ok(),
         };
         Ok(Ok(labels.iter().enumerate().map(told).collect()))
     }

@@ -140,6 +140,32 @@ fn a_model_is_corrected_by_what_people_said_and_not_by_what_else_is_known() {
 }
 
 #[test]
+fn what_somebody_unlabeled_was_not_left_alone() {
+    let dataset = Dataset::new();
+    let [town, out] = reviewed(&dataset);
+    let counts = || {
+        let asked = ["learn", &town, "--from", &out, "-o", &dataset.beside("own.txt"), "--json", "-q"];
+        let told: serde_json::Value = serde_json::from_str(&ralf(asked).exits(0).stdout).unwrap();
+        ["detections", "left_alone"].map(|key| told["corrected"]["tiny"][key].as_u64().unwrap())
+    };
+    let [said, alone] = counts();
+    let detections =
+        fs::metadata(format!("{out}/sequences/tiny/radar_front/000000.label")).unwrap().len() / 4;
+    let scans = vec![ScanEdit {
+        radar: "radar_front".to_owned(),
+        scan: 0,
+        detections: detections as u32,
+        points: (20..30).collect(),
+        base: 1,
+        ..ScanEdit::default()
+    }];
+    let stroke = Stroke { label: Some(0), scans, ..Stroke::of_sequence("tiny") };
+    let mut store = Store::open(&Path::new(&out).join(FILE)).unwrap();
+    store.apply(&stroke, &Who::named("ada")).unwrap();
+    assert_eq!(counts(), [said, alone - 10]);
+}
+
+#[test]
 fn labels_that_say_nothing_or_one_thing_alone_correct_no_model() {
     let dataset = Dataset::new();
     let [town, _] = simulated(&dataset);

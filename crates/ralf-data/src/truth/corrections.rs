@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::read::Recording;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
-use ralf::label::class_name;
+use ralf::label::{UNLABELED, class_name};
 use ralf_corrections::{FILE, Reader, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -189,6 +189,16 @@ impl Corrections {
     /// Several contents of the scan, of which nothing says which is meant.
     pub fn causes(&self, scan: &ScanId) -> Result<&[(u32, String)], DataError> {
         Ok(self.layer(scan)?.map_or(&[], |layer| layer.causes.as_slice()))
+    }
+
+    /// Detections of a scan whose label somebody took away, ascending.
+    ///
+    /// # Errors
+    /// Several contents of the scan, of which nothing says which is meant.
+    pub(super) fn unlabeled(&self, scan: &ScanId) -> Result<Vec<u32>, DataError> {
+        let corrections = self.layer(scan)?.map_or(&[][..], |layer| layer.corrections.as_slice());
+        let unlabeled = corrections.iter().filter(|(_, label)| *label == UNLABELED);
+        Ok(unlabeled.map(|(detection, _)| *detection).collect())
     }
 
     fn layers(&self) -> impl Iterator<Item = &ScanLayer> {

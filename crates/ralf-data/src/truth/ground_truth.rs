@@ -108,6 +108,14 @@ impl GroundTruth {
         corrections.truth(scan, file)?.map_or_else(on_file, Ok)
     }
 
+    /// Detections of a scan whose label somebody took away in a review, ascending: 0 (unlabeled) was said of them.
+    ///
+    /// # Errors
+    /// Those of [`Corrections::causes`].
+    pub(crate) fn unlabeled(&self, scan: &ScanId) -> Result<Vec<u32>, DataError> {
+        self.corrections.as_ref().map_or(Ok(Vec::new()), |corrections| corrections.unlabeled(scan))
+    }
+
     /// Why the artifacts of a sequence are such, where its format or files of causes tell it.
     ///
     /// # Errors
