@@ -27,6 +27,8 @@ const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
 const STEEPEST: (f64, usize) = (0.98, 2000);
 /// What a LiDAR sees nearer than this may be its own vehicle, m.
 const VEHICLE: f64 = 3.0;
+/// Points are put to the middle of a turn, from so much before and after at most, s: LiDARs turn ten times a second.
+const HALF_TURN_S: f64 = 0.05;
 /// Points kept to be sought in images.
 const SEEN: usize = 6000;
 /// Obstacles kept to be sought in another scan.
@@ -80,8 +82,9 @@ pub(crate) struct LidarLook {
     /// The LiDAR's place (vehicle frame as recorded), and the distance from it in plan, m, at which its steepest beams
     /// come down to where obstacles begin.
     blind: (Point, f64),
-    /// How steeply its points lie below it, but for some odd ones, where they are no returns from the vehicle itself,
-    /// whose directions are off: a slope. None where nothing came back.
+    /// How steeply its points lie below it at least, but for some odd ones, where they are no returns from the vehicle
+    /// itself, whose directions are off: a slope. A point that was put to the middle of the turn lies nearer than it
+    /// was seen by as much as the vehicle drove meanwhile. None where nothing came back.
     pub(crate) steepest: Option<f64>,
     /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
@@ -293,6 +296,7 @@ impl LidarLook {
             true => (depth_edges(&points, &mount, stands), every_so_many(&points, SEEN)),
             false => (Vec::new(), Vec::new()),
         };
+        let moved = source.sequence().motion.twist(read.t_ns).0.norm() * HALF_TURN_S;
         let away: Vec<Point> = points.iter().filter(|p| (*p - lidar_at).norm() > VEHICLE).copied().collect();
         Self {
             lidar,
@@ -302,8 +306,8 @@ impl LidarLook {
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
             seen,
-            blind: (lidar_at, blind(steepest(&points, &lidar_at), height(&lidar_at))),
-            steepest: steepest(&away, &lidar_at),
+            blind: (lidar_at, blind(steepest(&points, &lidar_at, 0.0), height(&lidar_at))),
+            steepest: steepest(&away, &lidar_at, moved),
             ground,
             misread,
             shape: CloudShape::of(&returns, read.points.len()),
@@ -317,11 +321,12 @@ fn every_so_many(points: &[Point], count: usize) -> Vec<Point> {
     points.iter().step_by(points.len().div_ceil(count) | 1).copied().collect()
 }
 
-/// The slope at which the points of a LiDAR lie below it, but for the steepest few.
-fn steepest(points: &[Point], lidar: &Point) -> Option<f64> {
+/// The slope at which the points of a LiDAR lie below it, but for the steepest few, where each may have been seen from
+/// so much farther away, m.
+fn steepest(points: &[Point], lidar: &Point, moved: f64) -> Option<f64> {
     let looked = every_so_many(points, STEEPEST.1);
     let slopes: Vec<f64> =
-        looked.iter().map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
+        looked.iter().map(|p| (lidar.z - p.z) / ((p - lidar).xy().norm() + moved).max(1e-3)).collect();
     crate::statistics::quantile(&slopes, STEEPEST.0)
 }
 
@@ -380,6 +385,14 @@ mod tests {
     }
 
     #[test]
+    fn what_a_lidar_drove_towards_was_seen_less_steeply() {
+        let (lidar, ahead) = (Point::new(0.0, 0.0, 2.0), vec![Point::new(2.8, 0.0, 0.0); 10]);
+        let degrees = |moved: f64| steepest(&ahead, &lidar, moved).unwrap().atan().to_degrees();
+        // Seen from 4 m behind, at 26.6 degrees, and put where it lies 1.2 m later.
+        assert!((degrees(0.0) - 35.5).abs() < 0.1 && (degrees(1.2) - 26.6).abs() < 0.1);
+    }
+
+    #[test]
     fn beams_that_reach_a_road_at_eight_metres_reach_the_height_of_obstacles_before() {
         // Wherever the vehicle frame has its zero.
         for road in [0.0, -2.0, 1.0] {
@@ -388,9 +401,9 @@ mod tests {
                 let angles = (0..2000).map(|i| f64::from(i) * 0.01);
                 angles.map(|a| Point::new(8.0 * a.cos(), 8.0 * a.sin(), z)).collect::<Vec<_>>()
             };
-            assert!((blind(steepest(&ring(road), &lidar), 2.0) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
-            assert_eq!(blind(steepest(&ring(road + 2.0), &lidar), 2.0), 0.0);
-            assert_eq!(blind(steepest(&[], &lidar), 2.0), f64::INFINITY);
+            assert!((blind(steepest(&ring(road), &lidar, 0.0), 2.0) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
+            assert_eq!(blind(steepest(&ring(road + 2.0), &lidar, 0.0), 2.0), 0.0);
+            assert_eq!(blind(steepest(&[], &lidar, 0.0), 2.0), f64::INFINITY);
         }
     }
 

@@ -8,6 +8,8 @@ mod mounting;
 mod radar;
 mod timing;
 
+pub(crate) use radar::one_elevation;
+
 use crate::remedy::Remedy;
 use crate::sample::Sample;
 use crate::verdict::{Question, Verdict};

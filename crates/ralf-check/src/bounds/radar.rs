@@ -24,6 +24,8 @@ const REPEATED: f64 = 0.05;
 const ABSURD: f64 = 0.2;
 /// Fewer detections than this tell nothing of a distribution.
 const FEWEST: usize = 30;
+/// Elevations that differ by no more are one, rad.
+const SAME_ELEVATION: f64 = 1e-4;
 /// In fewer scans nothing may be there.
 const SCANS: usize = 5;
 
@@ -196,13 +198,17 @@ fn ranges(name: &str, all: &[[f64; 3]]) -> Option<Verdict> {
 }
 
 fn elevation(radar: &Radar, all: &[[f64; 3]]) -> Option<Verdict> {
+    let always = one_elevation(all).filter(|_| radar.elevation == Elevation::Measured)?;
+    let evidence =
+        format!("elevation is said to be measured, and is {:.2} degrees always", always.to_degrees());
+    Some(doubt(&radar.name, evidence, Some(Remedy::LookInto("elevation = \"none\" in the rig"))))
+}
+
+/// The elevation of detections that all lie in one plane, or on one cone, rad.
+pub(crate) fn one_elevation(all: &[[f64; 3]]) -> Option<f64> {
     let angles: Vec<f64> = all.iter().map(|row| row[2]).filter(|angle| angle.is_finite()).collect();
     let [low, high] = [quantile(&angles, 0.01)?, quantile(&angles, 0.99)?];
-    if radar.elevation == Elevation::None || high - low > 1e-4 {
-        return None;
-    }
-    let evidence = format!("elevation is said to be measured, and is {:.2} degrees always", low.to_degrees());
-    Some(doubt(&radar.name, evidence, Some(Remedy::LookInto("elevation = \"none\" in the rig"))))
+    (high - low <= SAME_ELEVATION).then_some(low)
 }
 
 /// Sigmas, and what a radian taken for a degree (or the other way round) makes of them.

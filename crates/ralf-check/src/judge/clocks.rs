@@ -101,6 +101,14 @@ fn motion_is_late(case: &mut Case, late: &[(usize, ClockFigures)], offset_ms: f6
 }
 
 fn clear_or_dull(name: &str, figures: &ClockFigures) -> Verdict {
+    let braking = "braking or starting is needed";
+    if figures.is_sharp && figures.offset_ms.abs() > SMALL_MS {
+        let evidence = format!(
+            "speeds fit best when its times are moved by {:+.0} ms, and hardly worse as they are: {braking}",
+            figures.offset_ms
+        );
+        return Verdict::cannot_judge(name, Question::Clock, evidence);
+    }
     if figures.is_sharp {
         let evidence = format!(
             "speeds fit best within {:.0} ms of the motion's clock",
@@ -108,9 +116,23 @@ fn clear_or_dull(name: &str, figures: &ClockFigures) -> Verdict {
         );
         return Verdict::good(name, Question::Clock, evidence);
     }
-    Verdict::cannot_judge(
-        name,
-        Question::Clock,
-        "the speed changes too little: braking or starting is needed",
-    )
+    Verdict::cannot_judge(name, Question::Clock, format!("the speed changes too little: {braking}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clock_that_fits_best_elsewhere_is_not_in_order() {
+        let of = |offset_ms: f64, is_sharp: bool| {
+            let figures = ClockFigures { offset_ms, now: 0.10, then: 0.09, sigmas: 2.0, is_sharp };
+            clear_or_dull("radar", &figures)
+        };
+        assert_eq!(of(30.0, true).state, State::Good);
+        let far = of(-72.0, true);
+        assert_eq!(far.state, State::CannotJudge, "{}", far.evidence);
+        assert!(far.evidence.contains("-72 ms"), "{}", far.evidence);
+        assert_eq!(of(30.0, false).state, State::CannotJudge);
+    }
 }

@@ -4,6 +4,7 @@
 use super::alternatives::{best, gain_of_one};
 use super::case::Case;
 use super::places::{PLACE, PLACES, by_place};
+use crate::bounds::one_elevation;
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Tally, overlap};
 use crate::remedy::Remedy;
@@ -33,7 +34,9 @@ pub(super) fn judge(case: &Case) -> Vec<Verdict> {
 
 fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
     let sensor = &case.sequence.rig.radars[radar];
-    if sensor.elevation == Elevation::None {
+    let all: Vec<[f64; 3]> =
+        case.sample.radars[radar].iter().flat_map(|look| &look.spherical).copied().collect();
+    if sensor.elevation == Elevation::None || one_elevation(&all).is_some() {
         return None;
     }
     if places < PLACES {
