@@ -16,8 +16,8 @@ fn a_run_says_where_it_stopped_and_goes_on_later() {
     let whole = dataset.beside("whole");
     ralf(["label", &dataset.path, "-o", &whole]).exits(0);
     let expected = without_timings(&whole);
-    // Nothing fits, then no scan, then some of them in each run, and when all are labelled not the sequence's table.
-    for (kib, named) in [(0, ".scans"), (1, ".scans"), (7, "plausibility.parquet")] {
+    // Nothing fits, then some scans in each run, and when all are labelled not the sequence's table.
+    for (kib, named) in [(0, "recording.json"), (7, ".scans"), (7, "plausibility.parquet")] {
         let run = || with_files_up_to(kib, &["label", &dataset.path, "-o", &dataset.out]);
         let runs = || (0..30).map(|_| run());
         let ran = runs().find(|ran| ran.stderr.contains(named)).unwrap();

@@ -1,6 +1,6 @@
 //! A run that was killed goes on where it stopped; one with other settings replaces all of it.
 
-use crate::support::{Dataset, Ran, Shape, program, ralf, tree, without_timings};
+use crate::support::{Dataset, Ran, Shape, Tree, program, ralf, tree, without_timings};
 use std::fs;
 use std::path::Path;
 use std::thread::sleep;
@@ -232,6 +232,55 @@ fn other_settings_replace_what_a_killed_run_left() {
     labelled(&dataset.out).says(["removed", "what was labelled so far of 00"]);
     labelled(&fresh).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&fresh));
+}
+
+#[test]
+fn what_a_killed_run_left_of_another_recording_stays() {
+    let dataset = Dataset::of(&Shape { scans: 60, sequences: &["00", "01"], ..Shape::default() });
+    let other = Dataset::of_another_drive(&Shape { scans: 2, sequences: &["00", "02"], ..Shape::default() });
+    kill_midway(&dataset, "1");
+    let left = || tree(&dataset.out).into_iter().filter(|(name, _)| name != ".ralf-lock").collect::<Tree>();
+    let label = |path: &str, chosen: &str, threshold: &str| {
+        let set = format!("fusion.threshold={threshold}");
+        ralf(["label", "--no-check", path, "-o", &dataset.out, "--sequence", chosen, "--set", &set])
+    };
+    let there = fs::canonicalize(&dataset.path).unwrap();
+    let told = ["recording.json: recording: expected labels of ", "found those of another recording, "];
+    let before = left();
+    // Other settings take all of it, the same ones what has the same name.
+    for (chosen, threshold) in [("00", "0.9"), ("02", "0.9"), ("00", "0.4")] {
+        label(&other.path, chosen, threshold)
+            .exits(1)
+            .ends_with_error([told[0], told[1]])
+            .says([there.to_str().unwrap(), ", which would go (00)"]);
+        assert!(left() == before, "{chosen} {threshold}");
+    }
+    label(&other.path, "02", "0.4").exits(0).says_nothing();
+    // Of what an older version left nobody knows whose it is.
+    let kept = tree(&dataset.out).into_keys().find(|name| name.ends_with("/recording.json")).unwrap();
+    fs::remove_file(Path::new(&dataset.out).join(kept)).unwrap();
+    label(&dataset.path, "01", "0.9").exits(1).ends_with_error(["those of another recording, ", "(02)"]);
+    fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
+    label(&other.path, "02", "0.9").exits(0).says(["removed", "what was labelled so far of 00"]);
+}
+
+#[test]
+fn finished_labels_that_a_killed_run_left_of_another_recording_stay() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    let other = Dataset::of_another_drive(&Shape { scans: 2, sequences: &["02"], ..Shape::default() });
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
+    killed_before_the_record(&dataset);
+    let before = tree(&dataset.out);
+    let label = |path: &str, more: [&str; 2]| {
+        ralf(["label", "--no-check", path, "-o", &dataset.out, more[0], more[1]])
+    };
+    let refused = label(&other.path, ["--set", "fusion.threshold=0.9"]).exits(1);
+    refused.ends_with_error(["found those of another recording, ", ", which would go (00, 01)"]);
+    assert!(tree(&dataset.out) == before);
+    // With the same settings they lie side by side.
+    label(&other.path, ["--jobs", "1"]).exits(0).says_nothing();
+    assert!(dataset.result("plausibility.parquet").exists());
+    label(&dataset.path, ["--jobs", "1"]).exits(0).says(["nothing to do"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Putting a sequence's labelled scans together, in the order of the rig: row groups of its table are read and encoded
 //! side by side, and written in their order.
 
-use super::other_recording::place_of;
+use super::kept::place_of;
 use super::without::Without;
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};

@@ -1,93 +1,128 @@
 //! Labels of another recording: what somebody has labelled, and may have corrected, isn't replaced unawares.
 
 use super::inputs::Identity;
-use super::unfinished::Finished;
+use super::kept::{Kept, place_of};
+use super::unfinished::Unfinished;
 use crate::error::DataError;
-use crate::result::{Input, RunRecord, SequenceRecord};
+use crate::result::{Input, OutFolder, RunRecord, read_record};
+use crate::tree::RECORD;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// So many sequences are named.
 const SHOWN: usize = 5;
 
 /// What an output folder tells of its labels.
-pub(super) struct Labelled<'a> {
-    /// Its record, where there is one.
-    pub(super) record: Option<&'a RunRecord>,
-    /// What killed runs have finished.
-    pub(super) finished: &'a [Finished],
-    /// Whether sequences that aren't asked for stay.
+pub(super) struct Told {
+    /// Its record; of one that this version can't read, nothing is known.
+    pub(super) record: Option<RunRecord>,
+    /// Whether the record's sequences stay beside those that are asked for.
     pub(super) stays: bool,
+    record_file: PathBuf,
+    /// What runs have kept that are not over.
+    kept: Vec<Kept>,
 }
 
-/// Where a recording lies, the same by all its names; empty where it isn't on disk.
-pub(super) fn place_of(recording: &Path) -> String {
-    recording.canonicalize().map_or_else(|_| String::new(), |place| place.to_string_lossy().into_owned())
+/// Labels of a sequence.
+struct Labelled<'a> {
+    name: &'a str,
+    fingerprint: &'a str,
+    /// Where its recording lay; empty where nothing tells.
+    recording: &'a str,
+    inputs: Vec<&'a Input>,
+    /// Whether they stay where the sequence isn't asked for.
+    stays: bool,
+    /// What tells of them.
+    file: &'a Path,
 }
 
-/// Refuses a recording for which labels of another one would go: those under the same names, and all of them where
-/// labels of other settings can't stay beside what is asked for.
-///
-/// Another one lies elsewhere, and hardly any file of its sequences is what was labelled. One that was moved is the
-/// same, and so is one that changed where it lies. Of labels whose place an older record doesn't tell nobody knows.
-pub(super) fn refuse_other_recording(
-    record_file: &Path,
-    labelled: &Labelled,
-    recording: &Path,
-    asked: &[Identity],
-) -> Result<(), DataError> {
-    let told: Vec<&Identity> = asked.iter().filter(|asked| asked.is_told).collect();
-    let inputs = labelled.inputs();
-    let is_read_from = |known: &SequenceRecord, asked: &Identity| {
-        let earlier = inputs.get(known.name.as_str()).map(Vec::as_slice).unwrap_or_default();
-        known.fingerprint == asked.fingerprint || are_of_one_recording(earlier, &asked.inputs)
-    };
-    let of_name = |known: &SequenceRecord| told.iter().copied().find(|asked| asked.name == known.name);
-    let all: Vec<&SequenceRecord> = labelled.sequences().collect();
-    let same = all.iter().filter(|known| of_name(known).is_some_and(|asked| is_read_from(known, asked)));
+impl Told {
+    /// What the folder `out` tells a run that asks for labels like those of `run`.
+    pub(super) fn read(out: &Path, run: &RunRecord) -> Result<Self, DataError> {
+        let place = OutFolder::new(out);
+        let record = read_record(out).ok();
+        let stays = record.as_ref().is_some_and(|record| record.is_like(run));
+        let kept = Unfinished::of(&place, run)?.kept()?;
+        Ok(Self { record, stays, record_file: place.own_file(RECORD), kept })
+    }
+
+    /// Refuses a recording for which labels of another one would go: those under the same names, and all of them where
+    /// labels of other settings can't stay beside what is asked for.
+    ///
+    /// Another one lies elsewhere, and hardly any file of its sequences is what was labelled. One that was moved is the
+    /// same, and so is one that changed where it lies. Of labels whose place an older version didn't tell nobody knows.
+    pub(super) fn refuse_other_recording(
+        &self,
+        recording: &Path,
+        asked: &[Identity],
+    ) -> Result<(), DataError> {
+        refuse(&self.labelled(), recording, asked)
+    }
+
+    fn labelled(&self) -> Vec<Labelled<'_>> {
+        let kept = self.kept.iter().map(Labelled::kept);
+        let Some(record) = &self.record else { return kept.collect() };
+        Labelled::recorded(record, self.stays, &self.record_file).into_iter().chain(kept).collect()
+    }
+}
+
+fn refuse(labelled: &[Labelled], recording: &Path, asked: &[Identity]) -> Result<(), DataError> {
+    let of_name = |known: &Labelled| asked.iter().find(|asked| asked.is_told && asked.name == known.name);
+    let same = labelled.iter().filter(|known| of_name(known).is_some_and(|asked| known.is_read_from(asked)));
     // Where the recording lies, and where it lay.
     let own: BTreeSet<String> =
-        same.map(|known| known.recording.clone()).chain([place_of(recording)]).collect();
-    let goes = |known: &&&SequenceRecord| match of_name(known) {
+        same.map(|known| known.recording.to_owned()).chain([place_of(recording)]).collect();
+    let goes = |known: &&Labelled| match of_name(known) {
         Some(asked) => known.fingerprint != asked.fingerprint,
-        None => !labelled.stays,
+        None => !known.stays,
     };
-    let is_others = |known: &&&SequenceRecord| !known.recording.is_empty() && !own.contains(&known.recording);
-    let lost: Vec<&SequenceRecord> = all.iter().filter(goes).filter(is_others).copied().collect();
+    let is_others = |known: &&Labelled| !known.recording.is_empty() && !own.contains(known.recording);
+    let lost: Vec<&Labelled> = labelled.iter().filter(goes).filter(is_others).collect();
     let Some(first) = lost.first() else { return Ok(()) };
-    let names: Vec<&str> = lost.iter().map(|known| known.name.as_str()).collect();
+    let names = Vec::from_iter(lost.iter().map(|known| known.name).collect::<BTreeSet<_>>());
     let expected = format!("labels of {}, or none that would go", recording.display());
-    Err(DataError::content(record_file, "recording", expected, found(first, &names)))
+    Err(DataError::content(first.file, "recording", expected, found(first.recording, &names)))
 }
 
-fn found(other: &SequenceRecord, names: &[&str]) -> String {
+fn found(recording: &str, names: &[&str]) -> String {
     let more = match names.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
     let named = names[..names.len().min(SHOWN)].join(", ");
     format!(
-        "those of another recording, {}, which would go ({named}{more}): label into another folder, or move these \
-         labels away",
-        other.recording
+        "those of another recording, {recording}, which would go ({named}{more}): label into another folder, or move \
+         these labels away"
     )
 }
 
 impl<'a> Labelled<'a> {
-    fn sequences(&self) -> impl Iterator<Item = &'a SequenceRecord> + use<'a> {
-        let recorded = self.record.into_iter().flat_map(|record| &record.sequences);
-        recorded.chain(self.finished.iter().map(|(sequence, _)| sequence))
+    /// What a record tells, whose sequences stay beside others or don't.
+    fn recorded(record: &'a RunRecord, stays: bool, file: &'a Path) -> Vec<Self> {
+        let mut inputs = BTreeMap::<&str, Vec<&Input>>::new();
+        for input in &record.inputs {
+            inputs.entry(input.sequence.as_str()).or_default().push(input);
+        }
+        let labelled = record.sequences.iter().map(|sequence| Self {
+            name: &sequence.name,
+            fingerprint: &sequence.fingerprint,
+            recording: &sequence.recording,
+            inputs: inputs.remove(sequence.name.as_str()).unwrap_or_default(),
+            stays,
+            file,
+        });
+        labelled.collect()
     }
 
-    /// What was labelled, by sequence.
-    fn inputs(&self) -> BTreeMap<&'a str, Vec<&'a Input>> {
-        let recorded = self.record.into_iter().flat_map(|record| &record.inputs);
-        let finished = self.finished.iter().flat_map(|(_, inputs)| inputs);
-        let mut found = BTreeMap::<&str, Vec<&Input>>::new();
-        for input in recorded.chain(finished) {
-            found.entry(input.sequence.as_str()).or_default().push(input);
-        }
-        found
+    /// What a run has kept that isn't over.
+    fn kept(Kept { name, fingerprint, origin, stays, file }: &'a Kept) -> Self {
+        let (recording, inputs) = (&origin.recording, origin.inputs.iter().collect());
+        Self { name, fingerprint, recording, inputs, stays: *stays, file }
+    }
+
+    /// Whether both are of one recording.
+    fn is_read_from(&self, asked: &Identity) -> bool {
+        self.fingerprint == asked.fingerprint || are_of_one_recording(&self.inputs, &asked.inputs)
     }
 }
 

@@ -5,10 +5,11 @@
 
 use super::earlier::Earlier;
 use super::inputs::Identity;
+use super::kept::{Finished, Origin, place_of};
 use super::not_read;
-use super::other_recording::{Labelled, place_of, refuse_other_recording};
+use super::other_recording::Told;
 use super::results::Results;
-use super::unfinished::{Finished, Unfinished};
+use super::unfinished::Unfinished;
 use super::workspace::Workspace;
 use crate::disk::files;
 use crate::error::DataError;
@@ -44,19 +45,15 @@ impl OutputFolder {
         accepted: impl FnOnce() -> Result<(), DataError>,
     ) -> Result<Self, DataError> {
         let mut folder = Self::empty(out, run)?;
-        // Of a record that this version can't read, nothing is known.
-        let found = read_record(out).ok();
-        let finished = folder.unfinished.finished()?;
-        let stays = found.as_ref().is_some_and(|found| found.is_like(&folder.record));
-        let labelled = Labelled { record: found.as_ref(), finished: &finished, stays };
-        refuse_other_recording(&folder.record_file, &labelled, &recording.path, asked)?;
+        let told = Told::read(out, &folder.record)?;
+        told.refuse_other_recording(&recording.path, asked)?;
         accepted()?;
-        match found {
-            Some(found) if stays => folder.record = found,
+        match told.record {
+            Some(found) if told.stays => folder.record = found,
             Some(other) => folder.remove_all(&other)?,
             None => {}
         }
-        folder.settle(finished, asked, recording)?;
+        folder.settle(folder.unfinished.finished()?, asked, recording)?;
         let removed = folder.unfinished.remove_outdated(asked, &folder.results)?;
         folder.earlier.add(removed);
         Ok(folder)
@@ -173,6 +170,11 @@ impl OutputFolder {
     /// Whether a sequence was labelled before.
     pub(super) fn holds(&self, name: &str) -> bool {
         self.record.sequence(name).is_some()
+    }
+
+    /// Keeps where a sequence that is labelled from now on comes from.
+    pub(super) fn begin(&self, fingerprint: &str, origin: &Origin) -> Result<(), DataError> {
+        self.unfinished.begin(fingerprint, origin)
     }
 
     /// Keeps what a sequence is read from, for those that label parts of it.

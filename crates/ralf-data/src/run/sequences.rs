@@ -5,8 +5,9 @@
 
 use super::checks::check_one;
 use super::inputs::Identity;
+use super::kept::Finished;
+use super::kept::Origin;
 use super::output_folder::OutputFolder;
-use super::unfinished::Finished;
 use super::workers::{Labelling, timed};
 use super::workspace::Workspace;
 use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
@@ -225,6 +226,7 @@ impl<'a> Sequence<'a> {
         if let Some(under_way) = &state.under_way {
             return Ok(under_way.clone());
         }
+        folder.begin(&self.identity.fingerprint, &Origin::of(self.task, &state.inputs))?;
         let workspace = folder.workspace(&self.identity, &self.task.names)?;
         let under_way = Arc::new(UnderWay { workspace, in_time: self.task.in_time() });
         state.under_way = Some(under_way.clone());

@@ -5,6 +5,7 @@
 //! byte, whatever became of single parts. Every part may be done twice, and by two machines at once.
 
 use super::earlier::Earlier;
+use super::kept::Origin;
 use super::results::Results;
 use super::unfinished::Unfinished;
 use super::without::Without;
@@ -88,6 +89,7 @@ impl LabelRun<'_> {
         let (folder, asked) = self.open_folder(keep, observer)?;
         let mut stretches = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
+            folder.begin(&identity.fingerprint, &Origin::of(task, &identity.inputs))?;
             folder.remember(identity, &task.names.sequence)?;
             let of = task.scans().div_ceil(scans.get());
             stretches.extend((0..of).map(|number| Stretch {

@@ -1,27 +1,27 @@
 //! What runs keep in the output folder until `run.json` tells of it.
 //!
 //! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are
-//! fingerprints: of program and settings, and of the sequence. `FINGERPRINT/inputs.json` tells of a sequence that is
-//! labelled in parts what it was read from.
+//! fingerprints: of program and settings, and of the sequence. `FINGERPRINT/recording.json` tells where a sequence
+//! under way comes from; one that is labelled in parts has `FINGERPRINT/inputs.json`, too, what it was read from.
 
 use super::earlier::Earlier;
 use super::fingerprint;
 use super::inputs::Identity;
+use super::kept::{Finished, Kept, Origin};
 use super::results::Results;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::json::{read_json, write_json};
-use crate::result::{Component, Input, OutFolder, RunRecord, SequenceRecord, checked};
+use crate::result::{Component, Input, OutFolder, RunRecord, checked};
 use crate::tree::UNFINISHED;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
+/// Of a sequence under way.
+const ORIGIN: &str = "recording.json";
 /// Of a sequence that is labelled in parts.
 const INPUTS: &str = "inputs.json";
-
-/// A finished sequence and what it was read from.
-pub(super) type Finished = (SequenceRecord, Vec<Input>);
 
 /// The folder of runs with the same program and settings.
 pub(super) struct Unfinished {
@@ -47,6 +47,13 @@ impl Unfinished {
 
     fn sequence(&self, fingerprint: &str) -> Result<OutFolder, DataError> {
         Ok(self.folder().folder(&checked("fingerprint of a sequence", fingerprint)?))
+    }
+
+    /// Keeps where a sequence that is labelled from now on comes from.
+    pub(super) fn begin(&self, fingerprint: &str, origin: &Origin) -> Result<(), DataError> {
+        let folder = self.sequence(fingerprint)?;
+        fs::create_dir_all(folder.path()).map_err(DataError::io(folder.path()))?;
+        write_json(&folder.own_file(ORIGIN), origin)
     }
 
     /// Keeps what a sequence is read from, and makes room for its scans.
@@ -87,6 +94,23 @@ impl Unfinished {
             is_whole.then_some((sequence, inputs))
         });
         Ok(records.collect())
+    }
+
+    /// All sequences of which labels are kept, of this program and these settings and of others.
+    pub(super) fn kept(&self) -> Result<Vec<Kept>, DataError> {
+        let mut kept = Vec::new();
+        for run in files::folders(self.all.path())? {
+            let folder = self.all.path().join(&run);
+            for name in files::names(&folder)? {
+                let stays = run == self.run.as_str();
+                let file = folder.join(&name);
+                match file.is_dir() {
+                    true => kept.extend(Kept::under_way(&file, &name, file.join(ORIGIN), stays)?),
+                    false => kept.extend(Kept::finished(file, stays)),
+                }
+            }
+        }
+        Ok(kept)
     }
 
     /// Whether this is the fingerprint of a sequence with these inputs.
