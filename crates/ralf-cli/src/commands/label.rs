@@ -13,11 +13,12 @@ use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
 use ralf::config::Config;
-use ralf_data::Recording;
+use ralf::learned::Model;
 use ralf_data::run::{
     CheckRecord, LabelRun, Outcome as RunOutcome, SequenceRecord, check_all, check_output_folder,
 };
 use ralf_data::views::{lacking, with_stored};
+use ralf_data::{Recording, Settings};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -94,22 +95,15 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
-    let checks = arguments.checks_before(&recording, jobs)?;
+    let stages = Stages::default();
+    arguments.refuse_place(&arguments.run_of(&recording, &settings, model.as_ref(), &[]), &stages)?;
+    let checks = arguments.checks_before(&recording, jobs);
     if checks.iter().any(|check| !check.doubts.is_empty()) {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
     let recording = arguments.with_views(recording, &settings.method, jobs)?;
-    let run = LabelRun {
-        recording: &recording,
-        settings: &settings,
-        out: &arguments.output,
-        jobs,
-        evidence: arguments.evidence,
-        model: model.as_ref(),
-        checks: &checks,
-    };
-    let stages = Stages::default();
+    let run = arguments.run_of(&recording, &settings, model.as_ref(), &checks);
     stages.spent.add(Work::Opening, begun.elapsed());
     let done = match arguments.strict || arguments.no_check {
         true => run.execute(&stages)?,
@@ -128,6 +122,18 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
 }
 
 impl LabelArgs {
+    /// What labels a recording.
+    fn run_of<'a>(
+        &'a self,
+        recording: &'a Recording,
+        settings: &'a Settings,
+        model: Option<&'a Model>,
+        checks: &'a [CheckRecord],
+    ) -> LabelRun<'a> {
+        let (out, jobs, evidence) = (self.output.as_path(), threads(self.jobs), self.evidence);
+        LabelRun { recording, settings, out, jobs, evidence, model, checks }
+    }
+
     /// The recording with what networks say of its images, computed now or before.
     fn with_views(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
         let (depth, classes) = (self.depth.as_deref(), self.segmentation.as_deref());
@@ -141,14 +147,27 @@ impl LabelArgs {
         Ok(recording)
     }
 
-    /// What is to be known before anything is labelled: whether the results have a place, and doubts, which are told.
-    /// Without `--strict` checks go on meanwhile.
-    fn checks_before(&self, recording: &Recording, jobs: usize) -> anyhow::Result<Vec<CheckRecord>> {
-        check_output_folder(&recording.path, &self.output)?;
+    /// Refuses a place that can't take the results. Labelling asks whose labels are there by itself, unless something
+    /// that takes long comes before it.
+    fn refuse_place(&self, run: &LabelRun, stages: &Stages) -> anyhow::Result<()> {
+        check_output_folder(&run.recording.path, &self.output)?;
+        #[cfg(feature = "depth")]
+        let has_network = self.depth_model.depth_model.is_some();
+        #[cfg(not(feature = "depth"))]
+        let has_network = false;
+        if self.strict || has_network {
+            run.refuse_other_recording(stages)?;
+        }
+        Ok(())
+    }
+
+    /// Doubts that are to be known before anything is labelled, which are told. Without `--strict` checks go on
+    /// meanwhile.
+    fn checks_before(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
         tell_held_motion(recording);
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };
         checks.iter().flat_map(doubts).for_each(|line| say(&line));
-        Ok(checks)
+        checks
     }
 }
 

@@ -44,6 +44,17 @@ fn an_image_that_a_network_could_not_be_fed_with_is_told_and_asked_for_again() {
 }
 
 #[test]
+fn no_network_runs_for_a_recording_whose_labels_have_no_place() {
+    let dataset = dataset();
+    let other = Dataset::of_another_drive(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let model = brightness(&dataset, "net", 1.0, "depth");
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
+    let label = ["label", "--no-check", &other.path, "-o", &dataset.out, "--depth-model", &model];
+    ralf(label).exits(1).ends_with_error(["found those of another recording, "]);
+    assert!(!Path::new(&dataset.out).join("depth").exists(), "depth was computed");
+}
+
+#[test]
 fn depth_of_another_image_is_not_used() {
     let dataset = dataset();
     let (model, store) = (brightness(&dataset, "net", 1.0, "depth"), dataset.beside("store"));

@@ -1,6 +1,7 @@
 //! How a run comes into its output folder: alone, beside others that label parts of it, or to find that all is done.
 
 use super::inputs::{self, Identity};
+use super::other_recording::Told;
 use super::output_folder::OutputFolder;
 use super::unfinished::Unfinished;
 use super::{LabelRun, Observer, fingerprint};
@@ -12,6 +13,21 @@ use crate::tree::{SEQUENCES, UNFINISHED};
 const LOCK: &str = ".ralf-lock";
 
 impl LabelRun<'_> {
+    /// Refuses, as [`Self::execute`] does, a recording for which labels of another one would go: to be asked before
+    /// something is computed for it that takes long. Files are read only where such labels are there.
+    ///
+    /// # Errors
+    /// Such labels, and what can't be read of them.
+    pub fn refuse_other_recording(&self, observer: &dyn Observer) -> Result<(), DataError> {
+        let (run, place) = (self.record(), &self.recording.path);
+        let told = Told::read(self.out, &run)?;
+        if !told.holds_others(place) {
+            return Ok(());
+        }
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), &[], self.jobs, observer)?;
+        told.refuse_other_recording(place, &asked)
+    }
+
     /// The right to write to the output folder, alone.
     pub(super) fn lock(&self) -> Result<WriterLock, DataError> {
         self.refuse_links()?;

@@ -59,6 +59,12 @@ impl Told {
         refuse(&self.labelled(), recording, asked)
     }
 
+    /// Whether there are labels of a recording that lies elsewhere.
+    pub(super) fn holds_others(&self, recording: &Path) -> bool {
+        let place = place_of(recording);
+        self.labelled().iter().any(|known| !known.recording.is_empty() && known.recording != place)
+    }
+
     fn labelled(&self) -> Vec<Labelled<'_>> {
         let kept = self.kept.iter().map(Labelled::kept);
         let Some(record) = &self.record else { return kept.collect() };
