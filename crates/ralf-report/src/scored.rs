@@ -2,20 +2,22 @@
 
 use crate::ReportError;
 use ralf::label::{flag, truth_of};
-use ralf::sensors::Rig;
+use ralf::sensors::{Radar, Rig};
+use ralf::space::{Point, Spherical};
 use ralf_data::judge::Certainty;
 use ralf_data::result::{RadarScanKey, Table};
 use ralf_data::{Causes, Corrections, DataError, GroundTruth, ScanId};
 
 /// The columns that are needed.
-pub(crate) const COLUMNS: [&str; 7] = ["range", "azimuth", "w_opt", "w_tr", "w", "label", "flags"];
+pub(crate) const COLUMNS: [&str; 10] =
+    ["x", "y", "z", "range", "azimuth", "w_opt", "w_tr", "w", "label", "flags"];
 
 /// One detection.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scored {
-    /// As measured, m; NaN where absent.
+    /// From the radar, m; NaN where absent.
     pub(crate) range: f32,
-    /// As measured, rad; NaN where absent.
+    /// In the radar's frame, rad; NaN where absent.
     pub(crate) azimuth: f32,
     /// NaN where absent.
     pub(crate) w_opt: f32,
@@ -72,18 +74,19 @@ impl Origin<'_> {
         let codes = self.causes.map(|causes| causes.of_scan(&scan, table.len())).transpose()?.flatten();
         let radar = self.rig.radars.iter().find(|radar| *radar.name == *key.radar);
         let decimals = |name| table.get::<f32>(name);
-        let (range, azimuth, w) = (decimals("range")?, decimals("azimuth")?, decimals("w")?);
+        let (places, w) = (places(radar, table)?, decimals("w")?);
         let (w_opt, w_tr) = (decimals("w_opt")?, decimals("w_tr")?);
         let (label, flags) = (table.get::<u8>("label")?, table.get::<u16>("flags")?);
         let scored = |row: usize| {
             let class = truths.as_ref().map(|truths| truths[row]);
+            let [range, azimuth] = places[row];
             Scored {
-                range: range[row],
-                azimuth: azimuth[row],
+                range,
+                azimuth,
                 w_opt: w_opt[row],
                 w_tr: w_tr[row],
                 w: w[row],
-                gamma: radar.map_or(1.0, |radar| radar.reliability.at(azimuth[row].into()) as f32),
+                gamma: radar.map_or(1.0, |radar| radar.reliability.at(azimuth.into()) as f32),
                 plausible: label[row] == 1,
                 flags: flags[row],
                 never_passes: self.certainty.never_passes(flags[row]),
@@ -124,6 +127,27 @@ impl Origin<'_> {
         }
         Ok(Some(labels.iter().map(|label| label.id).collect()))
     }
+}
+
+/// Range and azimuth of each detection, by which the method goes: a field of such a name beside x, y, z is kept as it
+/// is, in whatever unit, and says nothing.
+fn places(radar: Option<&Radar>, table: &Table) -> Result<Vec<[f32; 2]>, ReportError> {
+    let column = |name| table.get::<f32>(name);
+    let (range, azimuth) = (column("range")?, column("azimuth")?);
+    let is_told =
+        |radar: &&Radar| ["range", "azimuth"].iter().any(|name| radar.told_beside_place(name).is_some());
+    let Some(radar) = radar.filter(is_told) else {
+        return Ok(range.iter().zip(azimuth).map(|(range, azimuth)| [*range, *azimuth]).collect());
+    };
+    let radar_from_vehicle = radar.vehicle_from_radar.inverse();
+    let (x, y, z) = (column("x")?, column("y")?, column("z")?);
+    let place = |row: usize| {
+        let place = Spherical::from_cartesian(
+            &(radar_from_vehicle * Point::new(x[row].into(), y[row].into(), z[row].into())),
+        );
+        [place.range, place.azimuth].map(|value| value as f32)
+    };
+    Ok((0..table.len()).map(place).collect())
 }
 
 #[cfg(test)]

@@ -212,6 +212,32 @@ fn the_page_tells_what_evaluate_prints() {
     assert!(!page.contains("This recording has no corrected labels"));
 }
 
+/// A radar tells an azimuth in degrees beside x, y, z: the method doesn't go by it, and neither does the page.
+#[test]
+fn an_angle_beside_the_place_changes_nothing() {
+    let part = |page: &str| {
+        let part =
+            |begin: &str| page.split_once(begin).unwrap().1.split_once("</section>").unwrap().0.to_owned();
+        [part("<section id=\"score\">"), part("<section id=\"errors\">")]
+    };
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    let sensors = tiny.dataset().join("sequences/00/sequence.toml");
+    let plain =
+        fs::read_to_string(&sensors).unwrap() + "reliability = [[-30.0, 2.0], [10.0, 1.0], [30.0, 2.0]]\n";
+    fs::write(&sensors, &plain).unwrap();
+    let before = part(&tiny.page());
+    let told = plain.replace("[\"x\", \"y\", \"z\"]", "[\"x\", \"y\", \"z\", \"range\", \"azimuth\"]");
+    fs::write(&sensors, told).unwrap();
+    for scan in 0..3 {
+        let file = tiny.dataset().join(format!("sequences/00/front/{scan:06}.bin"));
+        let rows = fs::read(&file).unwrap();
+        let with = |place: &[u8]| [place, &1000.0_f32.to_le_bytes(), &20.0_f32.to_le_bytes()].concat();
+        fs::write(file, rows.chunks(12).flat_map(with).collect::<Vec<u8>>()).unwrap();
+    }
+    assert_eq!(part(&tiny.page()), before);
+}
+
 #[test]
 fn false_positives_have_their_causes() {
     let tiny = Tiny::new();
