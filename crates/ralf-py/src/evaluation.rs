@@ -36,10 +36,15 @@ pub(crate) fn evaluate(
     Ok((to_json(&evaluation)?, orphaned))
 }
 
-/// Whether people said something of a run's labels. Of a store that can't be read nobody knows who doesn't ask for it.
+/// Whether people said something of a run's labels, of these sequences and radars; of all radars where none is named.
+/// Of a store that can't be read nobody knows who doesn't ask for it.
 #[pyfunction]
-pub(crate) fn is_corrected(out: PathBuf) -> bool {
-    Corrections::open(&out).is_ok_and(|corrections| !corrections.is_empty())
+pub(crate) fn is_corrected(out: PathBuf, sequences: Vec<String>, radars: Option<Vec<String>>) -> bool {
+    let is_chosen = |scan: &ScanId| {
+        sequences.contains(&scan.sequence)
+            && radars.as_ref().is_none_or(|radars| radars.contains(&scan.radar))
+    };
+    Corrections::open(&out).is_ok_and(|corrections| !corrections.of_scans(is_chosen).is_empty())
 }
 
 /// Against the truth of a dataset, with what people corrected above it.

@@ -126,6 +126,24 @@ def test_corrections_that_do_not_count_are_warned_of(run, drive, tmp_path, comma
         ScanDataset(out, FEATURES, truth=recording)
 
 
+def test_corrections_of_sequences_that_were_not_chosen_are_nobodys_matter(drive, tmp_path, command):
+    import ralf
+
+    recording, out = tmp_path / "drive", tmp_path / "out"
+    [simulated] = (drive / "sequences").iterdir()
+    shutil.copytree(simulated, recording / "sequences/corrected")
+    ralf.label(recording, out)
+    correct = Path(__file__).parents[3] / "testdata/correct_some.py"
+    subprocess.run([sys.executable, correct, recording, out, "1", "--ralf", *command], check=True, capture_output=True)
+    shutil.copytree(simulated, recording / "sequences/other")
+    ralf.label(recording, out)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ScanDataset(out, FEATURES, sequences=["other"])
+    with pytest.warns(UserWarning, match="what people corrected doesn't count"):
+        ScanDataset(out, FEATURES, sequences=["corrected"])
+
+
 def test_a_thread_gets_the_sequence_that_it_asks_for(run):
     class Raced(ScanDataset):
         """Another thread opens another sequence as soon as one is open."""

@@ -81,12 +81,18 @@ class ScanDataset(Dataset[Sample]):
         refuse_unknown(radars or [], (radar for run, one in chosen for radar in run.radars_of(one["name"])), "radar")
         self._refuse_other_features(chosen)
         if truth is None:
-            corrected = [run.out for run in opened if _ralf.is_corrected(run.out)]
-            warn_of([f"{out}: what people corrected doesn't count without `truth`" for out in corrected])
+            self._warn_of_corrections(chosen, radars)
         truths = [truth if isinstance(truth, Truth | None) else Truth(truth, run) for run in opened]
         for run, sequence in chosen:
             self._truths.append(truths[opened.index(run)])
             self._add(run.out, sequence, radars)
+
+    @staticmethod
+    def _warn_of_corrections(chosen: Sequence[tuple[Run, dict[str, Any]]], radars: list[str] | None) -> None:
+        """Warn of runs where people corrected something of what was chosen."""
+        for run, held in groupby(chosen, lambda one: one[0]):
+            if _ralf.is_corrected(run.out, [sequence["name"] for _, sequence in held], radars):
+                warn_of([f"{run.out}: what people corrected doesn't count without `truth`"])
 
     def _refuse_other_features(self, chosen: Sequence[tuple[Run, dict[str, Any]]]) -> None:
         """Refuse features that a table has no column of: a training may read that table hours later."""
