@@ -198,6 +198,8 @@ fn work_is_dealt_once_and_what_people_did_is_told() {
     let none = ralf(["evaluate", &dataset.out, "--progress", "--json"]).exits(0).says_nothing().json();
     assert_eq!(none, json!([]));
     ralf(["evaluate", "nowhere", "--progress", "--json"]).exits(1).says(["nowhere: expected corrections"]);
+    let told = ["run.json: expected the record of a finished `ralf label`"];
+    ralf(["evaluate", &dataset.path, "--progress"]).exits(1).prints_nothing().ends_with_error(told);
     say(&dataset.out, 9, &[1, 99, 10]);
     store(&dataset.out).undo("00", &who()).unwrap();
     let second = Path::new(&dataset.out).join("second");

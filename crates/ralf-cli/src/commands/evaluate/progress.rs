@@ -3,6 +3,8 @@
 use crate::outcome::Outcome;
 use crate::text::{aligned, grouped, print};
 use anyhow::bail;
+use ralf_data::Corrections;
+use ralf_data::result::LabelledRun;
 use ralf_data::team::Worked;
 use serde_json::Value;
 use std::path::Path;
@@ -13,9 +15,12 @@ const LEAST_HOURS: f64 = 0.05;
 /// Prints what everybody has done, day by day, and how fast.
 pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
     let worked = Worked::below(out)?;
-    // That nobody has done anything yet is an answer, of a folder that is there.
     if worked.is_empty() && !out.is_dir() {
         bail!("{}: expected corrections, found none", out.display());
+    }
+    // That nobody has done anything yet is an answer of labels, and of corrections that were begun.
+    if worked.is_empty() && Corrections::check_there(out).is_err() {
+        LabelledRun::open(out)?;
     }
     let page: Value = worked.iter().map(Worked::json).collect();
     print(&match (as_json, worked.is_empty()) {
