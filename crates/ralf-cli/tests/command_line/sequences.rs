@@ -180,9 +180,17 @@ fn a_damaged_sequence_is_in_nobodys_way_who_asks_for_another() {
     let told = |command: &str| ralf([command, &dataset.path, "--sequence", "01"]).exits(1).says([&odometry]);
     told("inspect");
     told("check");
-    ralf(["inspect", &dataset.path]).exits(1).says([&odometry]);
+    let left_out = ["left out: 01: ", &odometry];
+    ralf(["inspect", &dataset.path]).exits(3).says(left_out);
     ralf(["inspect", &dataset.path, "--sequence", "00"]).exits(0);
-    ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "00"]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "00"]).exits(0).says_nothing();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3).says(left_out).says(["nothing to do"]);
+    // A folder that lacks it is damaged as well.
+    let sensors = format!("{}/sequences/01/sequence.toml", dataset.path);
+    fs::remove_file(&sensors).unwrap();
+    let whole = dataset.beside("whole");
+    ralf(["label", &dataset.path, "-o", &whole]).exits(3).says(["left out: 01: ", &sensors]);
+    assert!(without_timings(&whole) == without_timings(&dataset.out));
 }
 
 #[test]

@@ -17,7 +17,9 @@ pub(crate) use values::degrees;
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::Recording;
+use crate::read::incomplete::named;
+use crate::read::opened::Opened;
 use crate::tree::{ODOMETRY, POSES, RECORD, SENSORS, SEQUENCES};
 use ralf::sensors::{DepthOutput, Rig};
 use std::path::{Path, PathBuf};
@@ -25,22 +27,19 @@ use std::path::{Path, PathBuf};
 /// The format's name.
 pub(crate) const NAME: &str = "ralf";
 
-/// Opens a dataset of the own layout, with every check that needs no measurement: the sequences of these names, or all
-/// where none is named, or one that isn't there.
+/// Opens a dataset of the own layout, with every check that needs no measurement; where names are given, those
+/// sequences.
+///
+/// Errors: no sequence. Of one that is named, or if all are such: what its checks refuse.
 pub(crate) fn open(dataset: &Path, names: &[String]) -> Result<Recording, DataError> {
     let folder = dataset.join(SEQUENCES);
     refuse_results(dataset)?;
-    let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
-    let mut folders = folders(&folder)?;
-    let is_named = |name: &String| folders.iter().any(|folder| folder.file_name() == Some(name.as_ref()));
-    if !names.is_empty() && names.iter().all(is_named) {
-        folders.retain(|folder| names.iter().any(|name| folder.file_name() == Some(name.as_ref())));
-    }
-    let sequences = folders.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
-    if sequences.is_empty() {
+    let folders: Vec<_> = folders(&folder)?.into_iter().map(|folder| (named(&folder), folder)).collect();
+    if folders.is_empty() {
         return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
     }
-    Ok(Recording::new(dataset, NAME, sequences))
+    let opened = Opened::of(folders, names, |_, folder| LayoutSequence::open(&folder))?;
+    Ok(opened.recording(dataset, NAME, Vec::new()))
 }
 
 /// Sensors, and what depth images mean, told as JSON with the keys of `sequence.toml`, and checked as that is.
@@ -90,4 +89,20 @@ fn folders(parent: &Path) -> Result<Vec<PathBuf>, DataError> {
 pub(crate) fn is_folder_name(name: &str) -> bool {
     let usual = |c: char| !c.is_control() && !"/\\:*?\"<>|".contains(c);
     !name.is_empty() && !name.starts_with('.') && name.chars().all(usual)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn a_damaged_sequence_costs_the_others_nothing() {
+        let dataset = tempfile::tempdir().unwrap();
+        let made = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(2, 1).unwrap();
+        crate::write_sequence(&made, dataset.path(), &|_| ()).unwrap();
+        let sensors = dataset.path().join("sequences/other").join(SENSORS);
+        testing::write(&sensors, b"format =");
+        testing::check_left_out(dataset.path(), ["tiny", "other"], "other/sequence.toml: line 1");
+    }
 }
