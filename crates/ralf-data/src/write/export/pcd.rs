@@ -12,6 +12,7 @@ use crate::error::DataError;
 use crate::result::{Column, Component, Kind, OutFolder, Table};
 use ralf::space::Transform;
 use std::collections::BTreeSet;
+use unicode_ident::is_xid_start;
 
 /// Writes the clouds.
 pub(super) struct Pcd;
@@ -69,9 +70,10 @@ fn field_names(columns: &[Column]) -> Vec<String> {
 }
 
 /// Whether readers take a character for part of a field's name. Spaces part names; at others pypcd4 stops reading the
-/// line, and takes the fields that it has for all.
+/// line, and takes the fields that it has for all. So it does at the signs of a script that only stand on letters.
 fn is_plain(c: char) -> bool {
-    c.is_alphanumeric() || "_-.?+*".contains(c)
+    let is_letter = c.is_alphabetic() && is_xid_start(c);
+    is_letter || c.is_numeric() || "_-.?+*".contains(c)
 }
 
 /// PCD's letter for the kind of a column.
@@ -100,5 +102,7 @@ mod tests {
         assert_eq!(field_names(&columns), ["my_field__", "x", "my_field___", "my_field", "my_field_"]);
         let columns = ["m/s", "RCS [dBsm]", "m_s", "größe", "a-b.c?+*", "100%"].map(field);
         assert_eq!(field_names(&columns), ["m_s_", "RCS__dBsm_", "m_s", "größe", "a-b.c?+*", "100_"]);
+        // Devanagari: letters, signs of vowels, and a digit.
+        assert_eq!(field_names(&["गति", "र्९²"].map(field)), ["गत_", "र_९²"]);
     }
 }
