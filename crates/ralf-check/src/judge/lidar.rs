@@ -156,7 +156,7 @@ fn by_range_rates(case: &Case) -> [usize; 2] {
     [aligned.len(), askew.len()]
 }
 
-/// A tally per radar with the scans of this LiDAR alone.
+/// A tally per radar with the scans of all LiDARs, of which this one is changed.
 fn tallies(case: &Case, lidar: usize, change: &SensorChange, measure: Measure) -> Vec<Tally> {
     let mut changes = case.lidar_changes.clone();
     changes[lidar] = changes[lidar].and(change);

@@ -15,7 +15,7 @@ use crate::statistics::paired_sigmas;
 use crate::velocity_fit::TRUSTED;
 use crate::verdict::{Question, Verdict};
 use nalgebra::Vector2;
-use orders::Order;
+use orders::{Order, Orders};
 use ralf::sensors::Source;
 use ralf::space::EgoMotion;
 use scans::{Of, Scans};
@@ -40,15 +40,18 @@ pub(super) fn judge(source: &dyn Source, sample: &Sample, unfit: &[String]) -> V
     let radars: Vec<usize> = (0..rig.radars.len()).filter(|i| is_fit(&rig.radars[*i].name)).collect();
     let lidars: Vec<usize> = (0..rig.lidars.len()).filter(|i| is_fit(&rig.lidars[*i].name)).collect();
     let motion = used_motion(&source.sequence().motion);
+    let orders = Orders::of(&source.sequence().times);
     let mut verdicts = Vec::new();
     let mut found = vec![None; rig.radars.len()];
     for radar in &radars {
-        if let Some((order, verdict)) = by_range_rates(source, &sample.radars[*radar], *radar, &motion) {
+        if let Some((order, verdict)) =
+            by_range_rates(source, &sample.radars[*radar], *radar, &motion, &orders)
+        {
             found[*radar] = Some(order);
             verdicts.push(verdict);
         }
     }
-    let mut scans = Scans::new(source, sample, &motion, found);
+    let mut scans = Scans::new(source, sample, &motion, &orders, found);
     verdicts.extend(by_what_both_see(&mut scans, &radars, &lidars));
     verdicts
 }
@@ -59,13 +62,14 @@ fn by_range_rates(
     looks: &[RadarLook],
     radar: usize,
     motion: &EgoMotion,
+    orders: &Orders,
 ) -> Option<(Order, Verdict)> {
     let times = &source.sequence().times.radars[radar];
     let sensor = &source.sequence().rig.radars[radar];
     let told: Vec<_> = looks.iter().filter_map(|look| Some((look.scan, look.fit?))).collect();
     let told: Vec<_> = told.into_iter().filter(|(_, fit)| fit.inliers >= TRUSTED).collect();
     let one = |order: Order| {
-        let files = order.of(times.len()).files;
+        let files = &orders.get(order, times.len()).files;
         let aside = told.iter().filter(|(scan, _)| times[files[*scan]].abs_diff(times[*scan]) > ASIDE_NS);
         let misfit = |t_ns: i64, velocity: Vector2<f64>| {
             (predicted(motion, &sensor.vehicle_from_radar, t_ns) - velocity).norm().min(CAP)

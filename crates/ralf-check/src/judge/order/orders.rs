@@ -1,6 +1,8 @@
 //! Orders in which files come to be taken for others.
 
 use crate::remedy::{AS_TEXT, BACKWARDS};
+use ralf::sensors::Timelines;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How files lie that should be in the order of time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,11 +21,27 @@ pub(super) struct Ordered {
     pub(super) places: Vec<usize>,
 }
 
+/// All orders of the files of radars and LiDARs, by how many there are.
+pub(super) struct Orders(BTreeMap<(Order, usize), Ordered>);
+
+impl Orders {
+    pub(super) fn of(times: &Timelines) -> Self {
+        let counts = times.radars.iter().chain(&times.lidars).map(Vec::len).collect::<BTreeSet<_>>();
+        let all = counts.into_iter().flat_map(|count| Order::ALL.map(|order| (order, count)));
+        Self(all.map(|(order, count)| ((order, count), order.of(count))).collect())
+    }
+
+    /// As many files as some sensor has, in this order.
+    pub(super) fn get(&self, order: Order, count: usize) -> &Ordered {
+        &self.0[&(order, count)]
+    }
+}
+
 impl Order {
     pub(super) const ALL: [Self; 3] = [Self::Text(0), Self::Text(1), Self::Backwards];
 
     /// So many files in this order.
-    pub(super) fn of(self, count: usize) -> Ordered {
+    fn of(self, count: usize) -> Ordered {
         let mut files: Vec<usize> = (0..count).collect();
         match self {
             Self::Text(first) => files.sort_by_cached_key(|file| (file + first).to_string()),

@@ -1,7 +1,7 @@
 //! Radar scans beside LiDAR scans, as recorded and in another order.
 
 use super::ASIDE_NS;
-use super::orders::{Order, Ordered};
+use super::orders::{Order, Orders};
 use crate::change::SensorChange;
 use crate::overlap::{Measure, Setup, TOGETHER_NS, Tally, of_moment};
 use crate::sample::{LidarLook, RadarLook, Sample, nearest};
@@ -27,8 +27,7 @@ pub(super) struct Scans<'a> {
     motion: &'a EgoMotion,
     /// Of each radar, the order that was found.
     pub(super) found: Vec<Option<Order>>,
-    /// By order and number of files.
-    ordered: BTreeMap<(Order, usize), Ordered>,
+    orders: &'a Orders,
     /// By radar and scan; none of those that can't be read.
     read: BTreeMap<(usize, usize), Option<RadarLook>>,
 }
@@ -45,13 +44,10 @@ impl<'a> Scans<'a> {
         source: &'a dyn Source,
         sample: &'a Sample,
         motion: &'a EgoMotion,
+        orders: &'a Orders,
         found: Vec<Option<Order>>,
     ) -> Self {
-        let times = &source.sequence().times;
-        let counts = times.radars.iter().chain(&times.lidars).map(Vec::len);
-        let all = counts.flat_map(|count| Order::ALL.map(|order| (order, count)));
-        let ordered = all.map(|(order, count)| ((order, count), order.of(count))).collect();
-        Self { source, sample, motion, found, ordered, read: BTreeMap::new() }
+        Self { source, sample, motion, found, orders, read: BTreeMap::new() }
     }
 
     /// Tallies of radars beside LiDARs as recorded and in another order: of moments at which this is another. Where a
@@ -95,7 +91,7 @@ impl<'a> Scans<'a> {
     fn recorded(&self, radar: usize, look: &LidarLook) -> Option<Pair> {
         let times = &self.source.sequence().times.radars[radar];
         let near = nearest(times, look.t_ns)?;
-        let file = self.found[radar].map_or(near, |order| self.ordered(order, times.len()).places[near]);
+        let file = self.found[radar].map_or(near, |order| self.orders.get(order, times.len()).places[near]);
         let pair = Pair { file, radar_ns: times[near], lidar_ns: look.t_ns };
         pair.is_together().then_some(pair)
     }
@@ -106,20 +102,16 @@ impl<'a> Scans<'a> {
         let [of_radar, of_lidar] = [&times.radars[radar], &times.lidars[look.lidar]];
         let lidar_ns = match of {
             Of::Radars => look.t_ns,
-            Of::Lidar | Of::Both => of_lidar[self.ordered(order, of_lidar.len()).files[look.scan]],
+            Of::Lidar | Of::Both => of_lidar[self.orders.get(order, of_lidar.len()).files[look.scan]],
         };
         let near = nearest(of_radar, lidar_ns)?;
         let of_files = match of {
             Of::Lidar => self.found[radar],
             Of::Radars | Of::Both => Some(order),
         };
-        let file = of_files.map_or(near, |order| self.ordered(order, of_radar.len()).places[near]);
+        let file = of_files.map_or(near, |order| self.orders.get(order, of_radar.len()).places[near]);
         let pair = Pair { file, radar_ns: of_radar[near], lidar_ns };
         pair.is_together().then_some(pair)
-    }
-
-    fn ordered(&self, order: Order, count: usize) -> &Ordered {
-        &self.ordered[&(order, count)]
     }
 
     /// Whether two files of a radar were measured at clearly different times.
