@@ -39,6 +39,7 @@ mod training;
 mod tree;
 pub mod truth;
 pub mod views;
+pub mod words;
 pub mod write;
 
 pub use disk::edited::{refuse_edited, write_editable};

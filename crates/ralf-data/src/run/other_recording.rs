@@ -6,6 +6,7 @@ use super::unfinished::Unfinished;
 use crate::error::DataError;
 use crate::result::{Input, OutFolder, RunRecord, read_record};
 use crate::tree::RECORD;
+use crate::words::listed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -91,13 +92,9 @@ fn refuse(labelled: &[Labelled], recording: &Path, asked: &[Identity]) -> Result
 }
 
 fn found(recording: &str, names: &[&str]) -> String {
-    let more = match names.len().saturating_sub(SHOWN) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    let named = names[..names.len().min(SHOWN)].join(", ");
+    let named = listed(names, SHOWN);
     format!(
-        "those of another recording, {recording}, which would go ({named}{more}): label into another folder, or move \
+        "those of another recording, {recording}, which would go ({named}): label into another folder, or move \
          these labels away"
     )
 }
