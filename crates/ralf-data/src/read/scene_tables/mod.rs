@@ -5,6 +5,8 @@ mod join;
 mod measurements;
 mod raw;
 mod rig;
+#[cfg(test)]
+pub(crate) mod testing;
 mod version;
 
 pub(crate) use join::{SceneRecord, Scenes, lookup, read_scenes};

@@ -7,6 +7,7 @@ mod refusals;
 use super::*;
 use crate::read::SequenceReader;
 use crate::read::scene_tables::TableOrigin;
+use crate::read::scene_tables::testing::{Tables, check_empty_scene, check_filenames};
 use crate::testing;
 use ralf::sensors::Intrinsics;
 use ralf::space::Point;
@@ -47,7 +48,10 @@ fn pcd(records: &[Vec<u8>]) -> Vec<u8> {
 
 struct DataSet(TempDir);
 
-impl DataSet {
+impl Tables for DataSet {
+    const VERSION: &'static str = VERSION;
+    const SCENE: &'static str = "scene-0001";
+
     /// Two radars, a LiDAR, a camera, the CAN bus; rows and keys in no particular order.
     fn new() -> Self {
         let set = Self(tempfile::tempdir().unwrap());
@@ -68,6 +72,18 @@ impl DataSet {
         set
     }
 
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn open(&self) -> Result<Box<dyn SequenceReader>, DataError> {
+        let mut recording = open(self.path(), &[])?;
+        assert_eq!(recording.format, "nuscenes");
+        Ok(recording.sequences.remove(0))
+    }
+}
+
+impl DataSet {
     fn write_tables(&self) {
         self.write_sensors();
         self.table(
@@ -156,25 +172,5 @@ impl DataSet {
             &format!("{VERSION}/{name}.json"),
             serde_json::to_string_pretty(&rows).unwrap().as_bytes(),
         );
-    }
-
-    fn edit(&self, table: &str, change: impl FnOnce(&mut Vec<Value>)) {
-        let text =
-            fs::read_to_string(self.0.path().join(VERSION).join(table).with_extension("json")).unwrap();
-        let mut rows: Vec<Value> = serde_json::from_str(&text).unwrap();
-        change(&mut rows);
-        self.table(table, Value::Array(rows));
-    }
-
-    fn open(&self) -> Result<Box<dyn SequenceReader>, DataError> {
-        let mut recording = open(self.0.path(), &[])?;
-        assert_eq!(recording.format, "nuscenes");
-        Ok(recording.sequences.remove(0))
-    }
-
-    /// The error of opening, which must hold all of the words.
-    fn refused(&self, words: &[&str]) {
-        let error = self.open().map(drop).unwrap_err().to_string();
-        assert!(words.iter().all(|word| error.contains(word)), "{error}");
     }
 }

@@ -147,29 +147,12 @@ fn a_sensor_far_from_the_vehicle_is_refused() {
 
 #[test]
 fn a_scene_without_measurements_costs_the_others_nothing() {
-    let set = DataSet::new();
-    set.edit("scene", |rows| {
-        let mut other = rows[0].clone();
-        (other["token"], other["name"]) = (json!("t"), json!("scene-0000"));
-        rows.push(other);
-    });
-    let words = "scene `scene-0000`: expected at least one measurement with its ego pose, found none";
-    testing::check_left_out(set.0.path(), ["scene-0001", "scene-0000"], words);
-    set.edit("scene", |rows| rows.retain(|row| row["token"] == "t"));
-    set.edit("sample", Vec::clear);
-    set.edit("sample_data", Vec::clear);
-    set.refused(&[words]);
+    check_empty_scene::<DataSet>();
 }
 
 #[test]
 fn a_filename_that_leads_out_of_the_data_set_is_refused() {
-    for name in ["/etc/hostname", "../a.pcd", "samples/../../a.pcd"] {
-        let set = DataSet::new();
-        set.edit("sample_data", |rows| {
-            (rows[0]["token"], rows[0]["filename"]) = (json!("abroad"), json!(name));
-        });
-        set.refused(&["sample_data.json: line", &format!("{name:?} of the token `abroad`, which leads out")]);
-    }
+    check_filenames::<DataSet>();
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod refusals;
 
 use super::*;
 use crate::read::SequenceReader;
+use crate::read::scene_tables::testing::{Tables, check_empty_scene, check_filenames};
 use crate::testing;
 use recording::{SCENE, TINY, VERSION, write_data_set};
 use serde_json::{Value, json};
@@ -15,32 +16,28 @@ use tempfile::TempDir;
 
 struct DataSet(TempDir);
 
-impl DataSet {
+impl Tables for DataSet {
+    const VERSION: &'static str = VERSION;
+    const SCENE: &'static str = SCENE;
+
     fn new() -> Self {
         let set = Self(tempfile::tempdir().unwrap());
         write_data_set(set.0.path(), &TINY);
         set
     }
 
-    fn edit(&self, table: &str, change: impl FnOnce(&mut Vec<Value>)) {
-        let file = self.0.path().join(VERSION).join(table).with_extension("json");
-        let mut rows: Vec<Value> = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
-        change(&mut rows);
-        testing::write(&file, Value::Array(rows).to_string().as_bytes());
+    fn path(&self) -> &Path {
+        self.0.path()
     }
 
     fn open(&self) -> Result<Box<dyn SequenceReader>, DataError> {
-        let mut recording = crate::read::open(self.0.path(), None)?;
+        let mut recording = crate::read::open(self.path(), None)?;
         assert_eq!((recording.format, recording.sequences.len()), ("truckscenes", 1));
         Ok(recording.sequences.remove(0))
     }
+}
 
-    /// The error of opening, which must hold all of the words.
-    fn refused(&self, words: &[&str]) {
-        let error = self.open().map(drop).unwrap_err().to_string();
-        assert!(words.iter().all(|word| error.contains(word)), "{error}");
-    }
-
+impl DataSet {
     /// A file of a channel.
     fn file(&self, part: &str, channel: &str, n: usize) -> PathBuf {
         let folder = self.0.path().join(part).join(channel);

@@ -80,25 +80,12 @@ fn the_version_is_told_by_the_folder() {
 
 #[test]
 fn a_filename_that_leads_out_of_the_data_set_is_refused() {
-    for name in ["/etc/hostname", "../a.pcd", "samples/../../a.pcd"] {
-        let set = DataSet::new();
-        set.edit("sample_data", |rows| {
-            (rows[0]["token"], rows[0]["filename"]) = (json!("abroad"), json!(name));
-        });
-        set.refused(&["sample_data.json: line", &format!("{name:?} of the token `abroad`, which leads out")]);
-    }
+    check_filenames::<DataSet>();
 }
 
 #[test]
 fn a_scene_without_measurements_costs_the_others_nothing() {
-    let set = DataSet::new();
-    set.edit("scene", |rows| {
-        let mut other = rows[0].clone();
-        (other["token"], other["name"]) = (json!("other"), json!("parked"));
-        rows.push(other);
-    });
-    let words = "scene `parked`: expected at least one measurement with its ego pose, found none";
-    testing::check_left_out(set.0.path(), [SCENE, "parked"], words);
+    check_empty_scene::<DataSet>();
 }
 
 /// A second scene of another lorry, with a sample, a measurement and poses of its own, this much after the first, us.
