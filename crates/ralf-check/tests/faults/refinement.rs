@@ -131,6 +131,26 @@ fn nothing_is_proposed_of_recordings_that_are_right() {
     }
 }
 
+/// Behind the fronts of things, m: hedges and rows of cars reflect within.
+const BEHIND: f64 = 0.2;
+
+#[test]
+fn what_all_radars_hear_behind_things_moves_none_of_them() {
+    let mut deep = planted(&Recording::of(TURNING, 120, 4));
+    deep.edit_radars(|_, _, columns| {
+        for row in 0..columns[0].len() {
+            let range = columns[..3].iter().map(|column| column[row] * column[row]).sum::<f32>().sqrt();
+            columns[..3].iter_mut().for_each(|column| column[row] *= 1.0 + BEHIND as f32 / range.max(1.0));
+        }
+    });
+    let (_, refined) = check_and_refine(&[&deep]);
+    for Refinement { name, change, proposed, .. } in &refined {
+        println!("{name}: found {:.3?}, proposed {:.3?}", change.shift_m, proposed.shift_m);
+        let moved = change.shift_m[0].hypot(change.shift_m[1]);
+        assert!(moved < BEHIND / 4.0 && proposed.shift_m == [0.0; 3], "{name}: {moved} m");
+    }
+}
+
 /// Two drives of one vehicle, whose errors are the same: corrections rest on both, and are better known.
 #[test]
 fn drives_of_one_vehicle_tell_together() {

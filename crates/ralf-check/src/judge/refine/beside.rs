@@ -81,8 +81,14 @@ impl<'a> Beside<'a> {
         })
     }
 
-    /// By moment: how many detections lie on the fronts of things where a change puts them.
-    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<OnFronts> {
+    /// By moment: how many detections lie so far behind the fronts of things, m, where a change puts them.
+    pub(super) fn on_fronts(
+        &self,
+        setup: &Setup,
+        radar: usize,
+        change: &SensorChange,
+        behind: f64,
+    ) -> Vec<OnFronts> {
         let mut found = Vec::with_capacity(self.moments.len());
         for Moment { lidar, fronts, seen } in &self.moments {
             let mut sums = OnFronts { bands: [0.0; BANDS], looked_over: 0.0 };
@@ -90,7 +96,7 @@ impl<'a> Beside<'a> {
                 let way = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
                 let at = |position: &Point| {
                     let p = way.of(&change.place(position));
-                    fronts.at(p.x, p.y)
+                    fronts.before(behind, p.x, p.y)
                 };
                 scan.positions.iter().for_each(|position| sums.bands[band(position)] += at(position));
                 sums.looked_over += scan.looked_over.iter().map(at).sum::<f64>();

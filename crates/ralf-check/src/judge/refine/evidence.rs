@@ -33,6 +33,8 @@ pub(super) struct Evidence<'a> {
     drives: Vec<Drive<'a>>,
     /// What the quantities are added to: a mirror, a roll.
     base: SensorChange,
+    /// So far behind the fronts of things the radar hears them, m.
+    pub(super) behind: f64,
 }
 
 /// The same of one drive.
@@ -48,7 +50,11 @@ struct Drive<'a> {
 impl<'a> Evidence<'a> {
     /// Of a radar's number in each case. What is found starts from a change.
     pub(super) fn of(cases: &[(&'a Case<'a>, usize)], base: SensorChange) -> Self {
-        Self { drives: cases.iter().map(|(case, radar)| Drive::of(case, *radar)).collect(), base }
+        Self {
+            drives: cases.iter().map(|(case, radar)| Drive::of(case, *radar)).collect(),
+            base,
+            behind: 0.0,
+        }
     }
 
     /// What was found before.
@@ -80,7 +86,10 @@ impl<'a> Evidence<'a> {
     /// The logarithm of the likelihood of each part of the evidence, but for a constant.
     pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
         let change = self.change(values);
-        self.drives.iter().flat_map(|drive| drive.parts(&change, &drive.on_fronts(&change))).collect()
+        self.drives
+            .iter()
+            .flat_map(|drive| drive.parts(&change, &drive.on_fronts(&change, self.behind)))
+            .collect()
     }
 
     /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections
@@ -89,7 +98,7 @@ impl<'a> Evidence<'a> {
     pub(super) fn tells_along(&self, values: &Values) -> bool {
         let on_fronts = |metres: f64| -> f64 {
             let change = self.change(&(values + self::values(&SensorChange::shift(metres, 0.0))));
-            let moments = self.drives.iter().flat_map(|drive| drive.on_fronts(&change));
+            let moments = self.drives.iter().flat_map(|drive| drive.on_fronts(&change, self.behind));
             moments.flat_map(|moment| moment.bands).sum()
         };
         let there = on_fronts(0.0);
@@ -102,7 +111,7 @@ impl<'a> Evidence<'a> {
     pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
         let change = self.change(values);
         let of_drive = |drive: &Drive| {
-            let moments = drive.on_fronts(&change);
+            let moments = drive.on_fronts(&change, self.behind);
             let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
             drive.parts(&change, &moments).iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over
         };
@@ -130,8 +139,8 @@ impl<'a> Drive<'a> {
         found
     }
 
-    fn on_fronts(&self, change: &SensorChange) -> Vec<OnFronts> {
-        self.beside.on_fronts(&self.case.setup(), self.radar, change)
+    fn on_fronts(&self, change: &SensorChange, behind: f64) -> Vec<OnFronts> {
+        self.beside.on_fronts(&self.case.setup(), self.radar, change, behind)
     }
 
     fn parts(&self, change: &SensorChange, moments: &[OnFronts]) -> [[f64; KINDS]; STRETCHES] {

@@ -51,10 +51,10 @@ impl Fronts {
         Self { origin, values }
     }
 
-    /// At a place, m; linear between rays and between ranges. 0 beyond 42 m.
-    pub(super) fn at(&self, x: f64, y: f64) -> f64 {
+    /// So far before a place along its ray, m; linear between rays and between ranges. 0 beyond 42 m.
+    pub(super) fn before(&self, behind: f64, x: f64, y: f64) -> f64 {
         let (x, y) = (x - self.origin.x, y - self.origin.y);
-        let range = x.hypot(y) / STEP - 0.5;
+        let range = (x.hypot(y) - behind) / STEP - 0.5;
         if !(0.0..(STEPS - 1) as f64).contains(&range) {
             return 0.0;
         }
@@ -88,9 +88,10 @@ mod tests {
         let points = (-150..150)
             .flat_map(|i| (0..10).map(move |j| [8.0 + 0.2 * f64::from(j), f64::from(i) * 0.1, 1.0]));
         let fronts = Fronts::of(&PlanField::new(points), Vector::new(0.0, 0.5, 0.0));
-        assert!(fronts.at(8.0, 0.5) > 0.9);
-        assert!(fronts.at(7.2, 0.5) < 0.01 && fronts.at(9.0, 0.5) < 0.01);
-        assert_eq!((fronts.at(60.0, 0.5), fronts.at(f64::NAN, 0.0)), (0.0, 0.0));
+        assert!(fronts.before(0.0, 8.0, 0.5) > 0.9);
+        assert!(fronts.before(0.0, 7.2, 0.5) < 0.01 && fronts.before(0.0, 9.0, 0.5) < 0.01);
+        assert!(fronts.before(0.4, 8.4, 0.5) > 0.9, "0.4 m behind the front");
+        assert_eq!((fronts.before(0.0, 60.0, 0.5), fronts.before(0.0, f64::NAN, 0.0)), (0.0, 0.0));
     }
 
     #[test]
@@ -102,7 +103,8 @@ mod tests {
             let points = (-150..150).map(|i| f64::from(i) * 0.05).map(|y| [wall + slope * y, y, 1.0]);
             let fronts = Fronts::of(&PlanField::new(points), Vector::zeros());
             let places = (0..600).map(|i| wall - 3.0 + 0.01 * f64::from(i));
-            let found = places.max_by(|a, b| fronts.at(*a, 0.0).total_cmp(&fronts.at(*b, 0.0)));
+            let found =
+                places.max_by(|a, b| fronts.before(0.0, *a, 0.0).total_cmp(&fronts.before(0.0, *b, 0.0)));
             off += (found.unwrap_or(0.0) - wall) / 100.0;
         }
         assert!(off.abs() < 0.04, "{off}");
@@ -116,8 +118,9 @@ mod tests {
         let score = |shift: f64| {
             let clutter =
                 (0..6000).map(|i| (f64::from(i) + 0.5) * 0.001).map(|way| (5.0 + way, 1.5 - 0.1 * way));
-            let on_the_wall = 1000.0 * fronts.at(8.0 + shift, 0.0);
-            on_the_wall + clutter.map(|(x, density)| density * fronts.at(x + shift, 0.0)).sum::<f64>()
+            let on_the_wall = 1000.0 * fronts.before(0.0, 8.0 + shift, 0.0);
+            on_the_wall
+                + clutter.map(|(x, density)| density * fronts.before(0.0, x + shift, 0.0)).sum::<f64>()
         };
         let best = (-50..=50).map(|i| f64::from(i) * 0.01).max_by(|a, b| score(*a).total_cmp(&score(*b)));
         assert!(best.is_some_and(|shift| shift.abs() < 0.07), "{best:?}");

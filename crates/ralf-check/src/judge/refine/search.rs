@@ -26,20 +26,22 @@ pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Valu
     for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
         best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
     }
-    for _ in 0..ROUNDS {
-        for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
-            let mut axis = Values::zeros();
-            axis[i] = 1.0 / quantity.prior;
-            best = along(evidence, best, &axis, quantity.steps);
-        }
-        let Bend { axes, variances } = Bend::at(evidence, &best, open);
-        for (axis, variance) in
-            axes.column_iter().zip(variances.iter()).filter(|(_, variance)| **variance > 0.0)
-        {
-            // Exactly 0 where nothing may change: an eigenvector is so but for rounding.
-            let deviation = Values::from_fn(|i, _| if open[i] { axis[i] * variance.sqrt() } else { 0.0 });
-            best = along(evidence, best, &deviation, [1.0, FINEST]);
-        }
+    (0..ROUNDS).fold(best, |best, _| uphill(evidence, best, open))
+}
+
+/// Up from a start, over each quantity for itself and then over the axes of the bend.
+pub(super) fn uphill(evidence: &Evidence, mut best: Values, open: Open) -> Values {
+    for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
+        let mut axis = Values::zeros();
+        axis[i] = 1.0 / quantity.prior;
+        best = along(evidence, best, &axis, quantity.steps);
+    }
+    let Bend { axes, variances } = Bend::at(evidence, &best, open);
+    for (axis, variance) in axes.column_iter().zip(variances.iter()).filter(|(_, variance)| **variance > 0.0)
+    {
+        // Exactly 0 where nothing may change: an eigenvector is so but for rounding.
+        let deviation = Values::from_fn(|i, _| if open[i] { axis[i] * variance.sqrt() } else { 0.0 });
+        best = along(evidence, best, &deviation, [1.0, FINEST]);
     }
     best
 }
@@ -126,7 +128,7 @@ pub(super) struct Deviations {
 /// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
 /// what goes together, and from how much parts of the evidence disagree (the sandwich of White, *Econometrica* 50,
 /// 1982), which knows what the model doesn't: stretches of time, kinds, and drives, each of which has walls of its own.
-pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Deviations {
+pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open, by_behind: &Values) -> Deviations {
     let covariance = Bend::at(evidence, values, open).covariance();
     let slopes = slopes(evidence, values, open);
     let [stretches, kinds, drives] =
@@ -134,7 +136,10 @@ pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> De
     let of = |variances: Matrix4<f64>| {
         Values::from_fn(|i, _| if open[i] { variances[(i, i)].max(0.0).sqrt().min(1.0) } else { 1.0 })
     };
-    Deviations { chance: of(covariance + stretches), contradiction: of(kinds + drives) }
+    Deviations {
+        chance: of(covariance + stretches + by_behind * by_behind.transpose()),
+        contradiction: of(kinds + drives),
+    }
 }
 
 /// What stretches of time, kinds of evidence, and drives pull at, of those that hold any: what nothing was measured of

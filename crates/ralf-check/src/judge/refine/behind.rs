@@ -1,0 +1,93 @@
+//! How far behind the fronts of things radars hear them: bushes and rows of cars reflect within and between, too.
+//!
+//! A radar that looks at things on one side alone seems mounted so much nearer to them. But what all radars of a
+//! vehicle do, whatever way they look, is no matter of mountings.
+
+use super::quantity::Values;
+use super::radar::{Found, Radar, told_along};
+use super::search::uphill;
+
+/// Distances that are tried, m, so far apart and so many.
+const FIRST: f64 = -0.1;
+const STEP: f64 = 0.1;
+const TRIED: usize = 6;
+/// How far one expects it to be from 0 before anything is measured, m.
+const PRIOR: f64 = 0.2;
+
+/// Radars of a vehicle, which look at different things, differ by so much, m.
+const APART: f64 = 0.05;
+
+/// What a radar's correction would be, and how likely all is, by distance.
+struct Way {
+    values: Vec<Values>,
+    posteriors: Vec<f64>,
+}
+
+impl Way {
+    fn of(found: &mut Found) -> Self {
+        let Found { evidence, open, values, .. } = found;
+        let (mut way, mut values) = (Self { values: Vec::new(), posteriors: Vec::new() }, *values);
+        for behind in (0..TRIED).map(|i| FIRST + i as f64 * STEP) {
+            evidence.behind = behind;
+            values = uphill(evidence, values, *open);
+            way.posteriors.push(evidence.posterior(&values));
+            way.values.push(values);
+        }
+        way
+    }
+
+    /// The correction if things are heard so far behind, m.
+    fn at(&self, behind: f64) -> Values {
+        let place = ((behind - FIRST) / STEP).clamp(0.0, (TRIED - 1) as f64);
+        let first = (place as usize).min(TRIED - 2);
+        let [near, far] = [self.values[first], self.values[first + 1]];
+        near + (far - near) * (place - first as f64)
+    }
+}
+
+/// Finds one distance for all radars, and each radar's likeliest values with it.
+pub(super) fn settle(radars: &mut [Radar]) {
+    let mut found: Vec<&mut Found> = radars.iter_mut().filter_map(|radar| radar.found.as_mut()).collect();
+    let ways: Vec<Way> = found.iter_mut().map(|found| Way::of(found)).collect();
+    let (behind, deviation) = likeliest(|i| ways.iter().map(|way| way.posteriors[i]).sum());
+    let deviation = deviation.hypot(APART);
+    for (found, way) in found.iter_mut().zip(&ways) {
+        found.evidence.behind = behind;
+        let values = uphill(&found.evidence, way.at(behind), found.open);
+        (found.open, found.values) = told_along(&found.evidence, values, found.open);
+        found.by_behind = (way.at(behind + deviation) - way.at(behind - deviation)) / 2.0;
+    }
+}
+
+/// The likeliest distance and its standard deviation, by the logarithm of how likely each is that was tried: as a
+/// parabola falls off, through the likeliest and those beside it.
+fn likeliest(log: impl Fn(usize) -> f64) -> (f64, f64) {
+    let at = |i: usize| FIRST + i as f64 * STEP;
+    let logs: Vec<f64> = (0..TRIED).map(|i| log(i) - (at(i) / PRIOR).powi(2) / 2.0).collect();
+    let middle = (1..TRIED - 1).max_by(|a, b| logs[*a].total_cmp(&logs[*b])).unwrap_or(1);
+    let [before, highest, after] = [logs[middle - 1], logs[middle], logs[middle + 1]];
+    let bend = 2.0 * highest - before - after;
+    if bend * PRIOR * PRIOR <= STEP * STEP {
+        return (0.0, PRIOR);
+    }
+    let ahead = (after - before) / (2.0 * bend);
+    (at(middle) + STEP * ahead.clamp(-1.0, 1.0), STEP / bend.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_measured_sharply_counts_and_what_is_not_is_near_nothing() {
+        let at = |i: usize| FIRST + i as f64 * STEP;
+        let measured = |place: f64, sigma: f64| likeliest(|i| -((at(i) - place) / sigma).powi(2) / 2.0);
+        let (behind, deviation) = measured(0.17, 0.03);
+        // Of two that are known to 0.03 and 0.2: their weighted mean.
+        let weight = 0.2_f64.powi(2) / (0.2_f64.powi(2) + 0.03_f64.powi(2));
+        assert!((behind - 0.17 * weight).abs() < 1e-9 && (deviation - 0.03 * weight.sqrt()).abs() < 1e-9);
+        let (behind, deviation) = likeliest(|_| 5.0);
+        assert!(behind.abs() < 1e-9 && (deviation - PRIOR).abs() < 1e-9, "{behind} {deviation}");
+        assert_eq!(measured(2.0, 0.05).0, FIRST + STEP * (TRIED - 1) as f64, "no farther than what is tried");
+    }
+}
