@@ -3,33 +3,40 @@
 //! A radar that looks at things on one side alone seems mounted so much nearer to them. But what all radars of a
 //! vehicle do, whatever way they look, is no matter of mountings.
 
+use super::evidence::Evidence;
 use super::quantity::Values;
-use super::radar::{Found, Radar, told_along};
-use super::search::uphill;
+use super::search::{Open, uphill};
 
 /// Distances that are tried, m, so far apart and so many.
 const FIRST: f64 = -0.1;
 const STEP: f64 = 0.1;
 const TRIED: usize = 6;
+const LAST: f64 = FIRST + STEP * (TRIED - 1) as f64;
 /// How far one expects it to be from 0 before anything is measured, m.
 const PRIOR: f64 = 0.2;
-
 /// Radars of a vehicle, which look at different things, differ by so much, m.
 const APART: f64 = 0.05;
 
+/// How far behind things radars hear them, m, and its standard deviation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Behind {
+    pub(super) metres: f64,
+    deviation: f64,
+}
+
 /// What a radar's correction would be, and how likely all is, by distance.
-struct Way {
+pub(super) struct Way {
     values: Vec<Values>,
     posteriors: Vec<f64>,
 }
 
 impl Way {
-    fn of(found: &mut Found) -> Self {
-        let Found { evidence, open, values, .. } = found;
-        let (mut way, mut values) = (Self { values: Vec::new(), posteriors: Vec::new() }, *values);
+    /// From the likeliest values at no distance.
+    pub(super) fn of(evidence: &mut Evidence, mut values: Values, open: Open) -> Self {
+        let mut way = Self { values: Vec::new(), posteriors: Vec::new() };
         for behind in (0..TRIED).map(|i| FIRST + i as f64 * STEP) {
             evidence.behind = behind;
-            values = uphill(evidence, values, *open);
+            values = uphill(evidence, values, open);
             way.posteriors.push(evidence.posterior(&values));
             way.values.push(values);
         }
@@ -37,25 +44,25 @@ impl Way {
     }
 
     /// The correction if things are heard so far behind, m.
-    fn at(&self, behind: f64) -> Values {
-        let place = ((behind - FIRST) / STEP).clamp(0.0, (TRIED - 1) as f64);
+    pub(super) fn at(&self, behind: f64) -> Values {
+        let place = (behind.clamp(FIRST, LAST) - FIRST) / STEP;
         let first = (place as usize).min(TRIED - 2);
         let [near, far] = [self.values[first], self.values[first + 1]];
         near + (far - near) * (place - first as f64)
     }
+
+    /// How much the correction changes with one standard deviation of the distance.
+    pub(super) fn by_deviation(&self, Behind { metres, deviation }: Behind) -> Values {
+        let [less, more] = [metres - deviation, metres + deviation].map(|behind| behind.clamp(FIRST, LAST));
+        (self.at(more) - self.at(less)) * (deviation / (more - less))
+    }
 }
 
-/// Finds one distance for all radars, and each radar's likeliest values with it.
-pub(super) fn settle(radars: &mut [Radar]) {
-    let mut found: Vec<&mut Found> = radars.iter_mut().filter_map(|radar| radar.found.as_mut()).collect();
-    let ways: Vec<Way> = found.iter_mut().map(|found| Way::of(found)).collect();
-    let (behind, deviation) = likeliest(|i| ways.iter().map(|way| way.posteriors[i]).sum());
-    let deviation = deviation.hypot(APART);
-    for (found, way) in found.iter_mut().zip(&ways) {
-        found.evidence.behind = behind;
-        let values = uphill(&found.evidence, way.at(behind), found.open);
-        (found.open, found.values) = told_along(&found.evidence, values, found.open);
-        found.by_behind = (way.at(behind + deviation) - way.at(behind - deviation)) / 2.0;
+impl Behind {
+    /// One distance for all radars of a vehicle.
+    pub(super) fn of(ways: &[&Way]) -> Self {
+        let (metres, deviation) = likeliest(|i| ways.iter().map(|way| way.posteriors[i]).sum());
+        Self { metres, deviation: deviation.hypot(APART) }
     }
 }
 
@@ -88,6 +95,6 @@ mod tests {
         assert!((behind - 0.17 * weight).abs() < 1e-9 && (deviation - 0.03 * weight.sqrt()).abs() < 1e-9);
         let (behind, deviation) = likeliest(|_| 5.0);
         assert!(behind.abs() < 1e-9 && (deviation - PRIOR).abs() < 1e-9, "{behind} {deviation}");
-        assert_eq!(measured(2.0, 0.05).0, FIRST + STEP * (TRIED - 1) as f64, "no farther than what is tried");
+        assert_eq!(measured(2.0, 0.05).0, LAST, "no farther than what is tried");
     }
 }

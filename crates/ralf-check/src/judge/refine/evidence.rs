@@ -49,12 +49,8 @@ struct Drive<'a> {
 
 impl<'a> Evidence<'a> {
     /// Of a radar's number in each case. What is found starts from a change.
-    pub(super) fn of(cases: &[(&'a Case<'a>, usize)], base: SensorChange) -> Self {
-        Self {
-            drives: cases.iter().map(|(case, radar)| Drive::of(case, *radar)).collect(),
-            base,
-            behind: 0.0,
-        }
+    pub(super) fn of(cases: &[(&'a Case<'a>, usize)], base: SensorChange, behind: f64) -> Self {
+        Self { drives: cases.iter().map(|(case, radar)| Drive::of(case, *radar)).collect(), base, behind }
     }
 
     /// What was found before.

@@ -16,6 +16,7 @@ mod search;
 use super::case::Case;
 use crate::change::SensorChange;
 use crate::overlap::Measure;
+use behind::Behind;
 use quantity::values;
 use radar::Radar;
 use serde::Serialize;
@@ -56,9 +57,9 @@ pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
     }
     let radars =
         names(cases, |case| case.radars().map(|radar| &case.sequence.rig.radars[radar].name).collect());
-    let mut radars: Vec<Radar> = radars.iter().map(|name| Radar::of(cases, name)).collect();
-    behind::settle(&mut radars);
-    refined.extend(radars.into_iter().map(Radar::refined));
+    let radars: Vec<Radar> = radars.iter().map(|name| Radar::of(cases, name)).collect();
+    let behind = Behind::of(&radars.iter().filter_map(Radar::way).collect::<Vec<_>>());
+    refined.extend(radars.into_iter().map(|radar| radar.refined(behind)));
     refined
 }
 

@@ -1,10 +1,11 @@
 //! A radar whose correction is sought, in the drives that can tell.
 
 use super::super::case::Case;
+use super::behind::{Behind, Way};
 use super::evidence::Evidence;
 use super::proposal::{proposed, told};
 use super::quantity::Values;
-use super::search::{Open, deviations, likeliest};
+use super::search::{Open, deviations, likeliest, uphill};
 use super::{Refinement, as_found, common, is_alike_besides};
 use crate::change::SensorChange;
 use crate::doppler::clock;
@@ -20,16 +21,14 @@ pub(super) struct Radar<'a> {
     /// The correction as the drives were judged one by one.
     alone: Refinement,
     /// Where the LiDARs see what the radar sees, and something can be judged.
-    pub(super) found: Option<Found<'a>>,
+    found: Option<Found<'a>>,
 }
 
-/// The likeliest values of a radar's correction.
-pub(super) struct Found<'a> {
-    pub(super) evidence: Evidence<'a>,
-    pub(super) open: Open,
-    pub(super) values: Values,
-    /// How much they change with one standard deviation of how far behind things they are heard.
-    pub(super) by_behind: Values,
+/// What a radar's correction is found from.
+struct Found<'a> {
+    drives: Vec<(&'a Case<'a>, usize)>,
+    open: Open,
+    way: Way,
 }
 
 impl<'a> Radar<'a> {
@@ -45,9 +44,17 @@ impl<'a> Radar<'a> {
         Self { alone: Refinement { only_of, ..as_found(name, base) }, found }
     }
 
-    pub(super) fn refined(self) -> Refinement {
-        let Some(Found { evidence, open, values, by_behind }) = self.found else { return self.alone };
-        let deviations = deviations(&evidence, &values, open, &by_behind);
+    /// Its corrections by how far behind things it hears them.
+    pub(super) fn way(&self) -> Option<&Way> {
+        self.found.as_ref().map(|found| &found.way)
+    }
+
+    pub(super) fn refined(self, behind: Behind) -> Refinement {
+        let Some(Found { drives, open, way }) = self.found else { return self.alone };
+        let evidence = Evidence::of(&drives, self.alone.change, behind.metres);
+        let values = uphill(&evidence, way.at(behind.metres), open);
+        let (open, values) = told_along(&evidence, values, open);
+        let deviations = deviations(&evidence, &values, open, &way.by_deviation(behind));
         Refinement {
             change: evidence.change(&values),
             deviations: std::array::from_fn(|i| told(&deviations, i)),
@@ -72,9 +79,10 @@ fn of_drives<'a>(drives: &[(&'a Case<'a>, usize)]) -> (SensorChange, Option<Foun
     if telling.is_empty() {
         return (base, None);
     }
-    let evidence = Evidence::of(&telling, base);
+    let mut evidence = Evidence::of(&telling, base, 0.0);
     let (open, values) = found(&evidence, std::array::from_fn(|i| opens.iter().any(|open| open[i])));
-    (base, Some(Found { evidence, open, values, by_behind: Values::zeros() }))
+    let way = Way::of(&mut evidence, values, open);
+    (base, Some(Found { drives: telling, open, way }))
 }
 
 /// The most drives in which a radar is mounted alike, of as many the first.
@@ -100,7 +108,7 @@ fn found(evidence: &Evidence, open: Open) -> (Open, Values) {
 
 /// A LiDAR that doesn't tell how far along the way things are would pull at that and at the clock all the same: then
 /// both are left alone.
-pub(super) fn told_along(evidence: &Evidence, values: Values, open: Open) -> (Open, Values) {
+fn told_along(evidence: &Evidence, values: Values, open: Open) -> (Open, Values) {
     let [yaw, forward, left, _] = open;
     if !forward || evidence.tells_along(&values) {
         return (open, values);
