@@ -71,11 +71,13 @@ impl Behind {
 fn likeliest(log: impl Fn(usize) -> f64) -> (f64, f64) {
     let at = |i: usize| FIRST + i as f64 * STEP;
     let logs: Vec<f64> = (0..TRIED).map(|i| log(i) - (at(i) / PRIOR).powi(2) / 2.0).collect();
-    let middle = (1..TRIED - 1).max_by(|a, b| logs[*a].total_cmp(&logs[*b])).unwrap_or(1);
+    let best = (0..TRIED).max_by(|a, b| logs[*a].total_cmp(&logs[*b])).unwrap_or(1);
+    let middle = best.clamp(1, TRIED - 2);
     let [before, highest, after] = [logs[middle - 1], logs[middle], logs[middle + 1]];
     let bend = 2.0 * highest - before - after;
-    if bend * PRIOR * PRIOR <= STEP * STEP {
-        return (0.0, PRIOR);
+    // Less than what was expected falls off: likelihoods that have no maximum here.
+    if bend * PRIOR * PRIOR < 0.99 * STEP * STEP {
+        return (at(best), PRIOR);
     }
     let ahead = (after - before) / (2.0 * bend);
     (at(middle) + STEP * ahead.clamp(-1.0, 1.0), STEP / bend.sqrt())
@@ -95,6 +97,7 @@ mod tests {
         assert!((behind - 0.17 * weight).abs() < 1e-9 && (deviation - 0.03 * weight.sqrt()).abs() < 1e-9);
         let (behind, deviation) = likeliest(|_| 5.0);
         assert!(behind.abs() < 1e-9 && (deviation - PRIOR).abs() < 1e-9, "{behind} {deviation}");
+        assert_eq!(likeliest(|i| 20.0 * at(i).powi(2)), (LAST, PRIOR), "what grows ever faster");
         assert_eq!(measured(2.0, 0.05).0, LAST, "no farther than what is tried");
     }
 }
