@@ -27,6 +27,7 @@ pub mod ros;
 mod rotation;
 mod row_scans;
 pub(crate) mod scene_tables;
+mod sound_motion;
 mod truckscenes;
 mod view_of_delft;
 pub(crate) mod view_origin;

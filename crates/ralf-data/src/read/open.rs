@@ -2,6 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::ros::Topics;
+use crate::read::sound_motion::with_sound_motion;
 use crate::read::{
     Recording, aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, truckscenes,
     view_of_delft, zod,
@@ -153,7 +154,7 @@ pub fn open_selected(
             DataError::content(path, "content", expected, "none of them")
         }),
     }?;
-    (found.open)(path, topics, names)?.select(names)
+    with_sound_motion((found.open)(path, topics, names)?.select(names)?)
 }
 
 /// The format that a folder or file is recognised as, and whether its readers know the truth of detections.

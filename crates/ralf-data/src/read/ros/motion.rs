@@ -34,8 +34,9 @@ pub(super) fn motion(
     let idle = topics.iter().filter(|(name, topic)| topic.kind == TopicKind::Imu && !survey.tells(name));
     warnings.extend(idle.map(|(_, topic)| format!("{}: no messages", topic.topic)));
     if let Some(imu) = imu {
-        let rates = imu.twists();
-        for sample in &mut wheels {
+        let rates = imu.numbers(warnings);
+        // An IMU that tells no number takes the place of nothing.
+        for sample in wheels.iter_mut().filter(|_| !rates.is_empty()) {
             sample.yaw_rate = yaw_rate(&rates, sample.t_ns);
         }
     }
@@ -95,16 +96,11 @@ impl Part<'_> {
         self.track.samples.iter().map(pose).collect()
     }
 
-    /// The twists that are numbers. Programs that estimate poses alone leave theirs at zero or NaN: where the poses
+    /// The twists that tell a velocity. Programs that estimate poses alone leave theirs at zero or NaN: where the poses
     /// move and no velocity does, there are none, so that the poses tell it.
     fn velocities(&self, poses: &[PoseSample], warnings: &mut Vec<String>) -> Vec<OdometrySample> {
-        let mut told = self.twists();
-        let (name, all) = (&self.topic.topic, told.len());
-        told.retain(|sample| sample.velocity.is_finite() && sample.yaw_rate.is_finite());
-        if told.len() < all {
-            warnings
-                .push(format!("{name}: {} of {all} twists are no numbers, and not used", all - told.len()));
-        }
+        let mut told = self.numbers(warnings);
+        let name = &self.topic.topic;
         let is_zero = |sample: &MotionSample| sample.twist.linear.iter().all(|v| *v == 0.0 || !v.is_finite());
         let metres = farthest(poses);
         if !told.is_empty() && metres >= MOVED && self.track.samples.iter().all(is_zero) {
@@ -113,6 +109,18 @@ impl Part<'_> {
                  poses tell how fast the vehicle is"
             ));
             told.clear();
+        }
+        told
+    }
+
+    /// The twists that are numbers; a warning counts the others.
+    fn numbers(&self, warnings: &mut Vec<String>) -> Vec<OdometrySample> {
+        let mut told = self.twists();
+        let (name, all) = (&self.topic.topic, told.len());
+        told.retain(|sample| sample.velocity.is_finite() && sample.yaw_rate.is_finite());
+        if told.len() < all {
+            let lost = all - told.len();
+            warnings.push(format!("{name}: {lost} of {all} twists are no numbers, and not used"));
         }
         told
     }

@@ -246,3 +246,28 @@ fn velocities_that_are_none_are_not_taken() {
     );
     assert_eq!(velocities(|_| 0.0, 0.01), (8, 0.0, String::new()), "a parked vehicle");
 }
+
+/// The yaw rate comes from the nearest messages of the IMU that are numbers; from the odometry where none of them is.
+#[test]
+fn what_an_imu_tells_that_is_no_number_is_not_used() {
+    let rates = |told: [f64; 3]| {
+        let (_folder, path) = recording(|drive, to| {
+            odometry(drive, to);
+            write(to, "/front", [scan(drive, 0, &[0.5])]);
+            let message = |(rate, k): (f64, i64)| {
+                let (header, angular_velocity) = (drive.header(350 * k, "base"), [0.0, 0.0, rate]);
+                (350 * k, Imu { header, angular_velocity, ..Imu::default() })
+            };
+            write(to, "/imu", told.into_iter().zip(0..).map(message));
+        });
+        let text = without("roof") + "imu = { topic = '/imu', kind = 'imu' }";
+        let drive = open_file(&path, &text).unwrap();
+        let rates: Vec<f64> =
+            drive.sequence().motion.odometry().iter().map(|sample| sample.yaw_rate).collect();
+        (rates, drive.warnings().concat())
+    };
+    let told = |count: usize| format!("/imu: {count} of 3 twists are no numbers, and not used");
+    assert_eq!(rates([0.5, f64::NAN, 0.5]), (vec![0.5; 8], told(1)));
+    assert_eq!(rates([f64::NAN, 0.5, f64::INFINITY]), (vec![0.5; 8], told(2)));
+    assert_eq!(rates([f64::NAN; 3]), (vec![0.1; 8], told(3)));
+}
