@@ -5,6 +5,7 @@ use super::survey::Survey;
 use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
 use ralf::space::Transform;
+use ralf_ros::tf::{SAME_PLACE, is_same_place};
 
 /// The vehicle's frame: as the settings say, or else that of the odometry, or else that of the twist.
 pub(super) fn vehicle_frame(
@@ -38,31 +39,42 @@ pub(super) fn mounting(
     if frame.trim_start_matches('/') == vehicle.trim_start_matches('/') {
         return Ok(Transform::identity());
     }
-    let at = |t_ns| {
-        survey.frames.lookup(vehicle, frame, t_ns).map_err(|error| {
-            let place = format!("frame `{frame}`");
+    let refused = |expected: String, found: String| {
+        Err(DataError::content(messages.path(), format!("frame `{frame}`"), expected, found))
+    };
+    let chain = match survey.frames.chain(vehicle, frame) {
+        Ok(chain) => chain,
+        Err(error) => {
             let expected =
                 format!("a transform from `{vehicle}` in the topics of the kinds tf and tf_static");
             let unread = survey.unread_frames(messages).into_iter().map(|sentence| format!("; {sentence}"));
-            DataError::content(
-                messages.path(),
-                place,
-                expected,
-                error.to_string() + &unread.collect::<String>(),
-            )
-        })
+            return refused(expected, error.to_string() + &unread.collect::<String>());
+        }
     };
-    let [first, last] = [at(span[0])?, at(span[1])?];
-    if first == last {
-        return Ok(first);
-    }
-    let expected = format!("a sensor that doesn't move on `{vehicle}`");
-    Err(DataError::content(
-        messages.path(),
-        format!("frame `{frame}`"),
-        expected,
-        format!("{first} and {last}"),
-    ))
+    // Outside of what is told nobody says that it moved.
+    let mounted = chain.held_at(span[0]);
+    let mut places = chain.told(span).into_iter().chain(span).map(|t_ns| (t_ns, chain.held_at(t_ns)));
+    let Some((t_ns, place)) = places.find(|(_, place)| !is_same_place(&mounted, place)) else {
+        return Ok(mounted);
+    };
+    let [metres, radians] = SAME_PLACE;
+    let expected = format!(
+        "a sensor that doesn't move on `{vehicle}`, by {} mm or {:.1} deg at most",
+        metres * 1e3,
+        radians.to_degrees()
+    );
+    let (before, after) = (told(&mounted), told(&place));
+    refused(expected, format!("{before} at {} ns, and {after} at {t_ns} ns", span[0]))
+}
+
+/// A place as people read it.
+fn told(place: &Transform) -> String {
+    // No zero has a sign.
+    let rounded = |value: f64, steps: f64| (value * steps).round() / steps + 0.0;
+    let [x, y, z] = place.translation.vector.map(|metres| rounded(metres, 1e3)).into();
+    let (roll, pitch, yaw) = place.rotation.euler_angles();
+    let [yaw, pitch, roll] = [yaw, pitch, roll].map(|angle| rounded(angle.to_degrees(), 1e2));
+    format!("x {x:.3}, y {y:.3}, z {z:.3} m, yaw {yaw:.2}, pitch {pitch:.2}, roll {roll:.2} deg")
 }
 
 /// The frame of a sensor: as the settings say, or else that of its messages.

@@ -29,7 +29,8 @@ struct Drive {
     camera_frame: &'static str,
     infos: Vec<f64>,
     images: i64,
-    mast_moves: bool,
+    /// How far ahead the radars' mast is at these times, ms and m.
+    mast: Vec<(i64, f64)>,
     vehicle: &'static str,
     radar_fields: [&'static str; 2],
     /// The frame of both radars.
@@ -42,24 +43,12 @@ struct Drive {
 
 impl Default for Drive {
     fn default() -> Self {
-        let (bag, stamped, mast_moves) = (false, true, false);
+        let (bag, stamped, mast) = (false, true, vec![(-500, 3.0), (500, 3.0)]);
         let (camera_frame, infos, images) = ("camera", vec![100.0], 1);
         let (vehicle, radar_fields) = ("base", ["vx", "vx"]);
         let (radar, parked) = ("radar", false);
         let lidar = (vec![[1.0, 2.0, 3.0, 0.0]], "other");
-        Self {
-            bag,
-            stamped,
-            camera_frame,
-            infos,
-            images,
-            mast_moves,
-            vehicle,
-            radar_fields,
-            radar,
-            parked,
-            lidar,
-        }
+        Self { bag, stamped, camera_frame, infos, images, mast, vehicle, radar_fields, radar, parked, lidar }
     }
 }
 
@@ -117,8 +106,8 @@ impl Drive {
         to.write(&frames, T0, &self.transform(0, ["base", "camera"], [1.0, 0.0, 1.5])).unwrap();
         to.write(&frames, T0, &self.transform(0, ["base", "lidar"], [0.0, 0.0, 2.0])).unwrap();
         let moving: Topic<TfMessage> = to.topic("/tf", Delivery::Live).unwrap();
-        for (ms, x) in [(-500, 3.0), (500, if self.mast_moves { 4.0 } else { 3.0 })] {
-            to.write(&moving, T0, &self.transform(ms, ["base", "mast"], [x, 0.0, 0.25])).unwrap();
+        for (ms, x) in &self.mast {
+            to.write(&moving, T0, &self.transform(*ms, ["base", "mast"], [*x, 0.0, 0.25])).unwrap();
         }
         let clouds: Topic<PointCloud2> = to.topic("/front/points", Delivery::Live).unwrap();
         // Recorded in another order than measured.

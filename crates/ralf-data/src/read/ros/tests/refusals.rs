@@ -39,8 +39,19 @@ fn without_odometry_the_motion_is_unknown() {
 #[test]
 fn what_contradicts_itself_is_refused() {
     let error = |drive: &Drive| error(drive, TABLE);
-    let moved = error(&Drive { mast_moves: true, ..Drive::default() });
-    assert!(moved.contains("expected a sensor that doesn't move on `base`"), "{moved}");
+    // Between the first scan and the last, where it is back.
+    for mast in [[(-500, 3.0), (100, 3.6), (500, 4.0)], [(0, 3.5), (70, 4.0), (140, 3.5)]] {
+        let moved = error(&Drive { mast: mast.to_vec(), ..Drive::default() });
+        let (told, places) = moved.split_once(", found ").unwrap();
+        assert!(
+            told.ends_with("a sensor that doesn't move on `base`, by 5 mm or 0.1 deg at most"),
+            "{moved}"
+        );
+        assert!(
+            places.starts_with("x 4.000, y 0.000, z 0.250 m, yaw 0.00, pitch 0.00, roll 0.00 deg at"),
+            "{moved}"
+        );
+    }
     let changed = error(&Drive { infos: vec![100.0, 101.0], ..Drive::default() });
     assert!(changed.contains("/cam/camera_info recorded at") && changed.contains("another one"), "{changed}");
 }

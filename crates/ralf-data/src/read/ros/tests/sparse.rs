@@ -271,3 +271,16 @@ fn what_an_imu_tells_that_is_no_number_is_not_used() {
     assert_eq!(rates([f64::NAN, 0.5, f64::INFINITY]), (vec![0.5; 8], told(2)));
     assert_eq!(rates([f64::NAN; 3]), (vec![0.1; 8], told(3)));
 }
+
+/// A mast is told of now and then, and by numbers that tremble: from 20 to 60 ms, or before and after all scans.
+#[test]
+fn a_mounting_is_held_where_nothing_tells_of_it() {
+    let trembling = [3.0, 3.000_000_1, 3.0 + 4e-16, 3.004];
+    for ms in [[-10, 20, 60, 200], [20, 30, 50, 60], [20, 30, 50, 200], [-40, -30, -20, -10]] {
+        let mast: Vec<(i64, f64)> = ms.into_iter().zip(trembling).collect();
+        let (_folder, path) = Drive { mast, ..Drive::default() }.write();
+        let opened = open_file(&path, TABLE).unwrap();
+        let x = opened.sequence().rig.radars[0].vehicle_from_radar.translation.x;
+        assert!((x - 3.5).abs() <= 0.005 && opened.warnings().is_empty(), "{x} of {ms:?}");
+    }
+}
