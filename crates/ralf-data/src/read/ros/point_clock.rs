@@ -1,8 +1,9 @@
 //! When the points of a LiDAR's clouds were measured: drivers agree neither on the field nor on its unit.
 //!
-//! The first scan whose times differ tells the unit. Times are either on the header's clock, and lie within a second of
-//! its stamp in one unit, or relative to the stamp, and then their spread tells it: no scan is shorter than a
-//! millisecond or longer than a second, and units are a thousand apart.
+//! The first scans whose times differ tell the unit, each by itself, and what most of them say counts: the first of a
+//! drive may be cut short, to a packet or two, and then looks as if its unit was longer. Times are either on the
+//! header's clock, and lie within a second of its stamp in one unit, or relative to the stamp, and then their spread
+//! tells it: no scan is shorter than a millisecond or longer than a second, and units are a thousand apart.
 
 use crate::read::point_times::LONGEST;
 use ralf::sensors::is_return;
@@ -14,6 +15,9 @@ const FIELDS: [&str; 5] = ["t", "time", "timestamp", "time_stamp", "offset_time"
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 /// No LiDAR scans faster, s.
 const SHORTEST: f64 = 1e-3;
+
+/// So many scans whose times differ are asked.
+const FIRST_SCANS: usize = 10;
 
 /// What a scan says of how its points tell their times.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,6 +101,41 @@ impl PointClock {
         let unit_s = 1.0 / self.seconds;
         let whole = (t_ns / 1_000_000_000) as f64;
         (time - whole * unit_s) * self.seconds - (t_ns % 1_000_000_000) as f64 * 1e-9
+    }
+}
+
+/// What the first scans of a LiDAR say.
+#[derive(Default)]
+pub(super) struct Said {
+    clocks: Vec<PointClock>,
+    strange: Vec<String>,
+    /// A field of one time for all points of a scan.
+    pub(super) idle: Option<&'static str>,
+}
+
+impl Said {
+    /// Hears what another scan says, and tells whether that is enough.
+    pub(super) fn hear(&mut self, told: Told) -> bool {
+        match told {
+            Told::NoTimes => return true,
+            Told::Nothing(field) => self.idle = self.idle.or(field),
+            Told::Clock(clock) => self.clocks.push(clock),
+            Told::Strange(sentence) => self.strange.push(sentence),
+        }
+        self.clocks.len() + self.strange.len() >= FIRST_SCANS
+    }
+
+    /// How times are told, as most scans have it; of as many the shorter unit, for a short scan leads to a longer one.
+    /// The error is a sentence, of times in no unit.
+    pub(super) fn clock(&self) -> Result<Option<PointClock>, String> {
+        let votes = |clock: &PointClock| self.clocks.iter().filter(|other| *other == clock).count();
+        let order = |a: &&PointClock, b: &&PointClock| {
+            votes(a).cmp(&votes(b)).then_with(|| b.seconds.total_cmp(&a.seconds))
+        };
+        match (self.clocks.iter().max_by(order), self.strange.first()) {
+            (None, Some(sentence)) => Err(sentence.clone()),
+            (clock, _) => Ok(clock.cloned()),
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::camera::intrinsics;
 use super::cloud::{Columns, point_clock, radar_columns};
 use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
-use super::point_clock::{PointClock, Told};
+use super::point_clock::{PointClock, Said};
 use super::survey::{Survey, info_topic};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::track::{MessagesPerSensor, Track};
@@ -239,24 +239,19 @@ impl Asked<'_> {
         Ok(found.or(of_empty))
     }
 
-    /// How a LiDAR's points tell times, by the first scan whose times differ. The error inside is a sentence, of times
-    /// that are not used.
+    /// How a LiDAR's points tell times, by its first scans. The error inside is a sentence, of times that are not used.
     fn point_clock(&self) -> Result<Result<Option<PointClock>, String>, DataError> {
-        let mut idle = None;
-        let found = self.first(|t_ns, message| {
-            Ok(match point_clock(self.messages, message, t_ns)? {
-                Told::NoTimes => Some(Ok(None)),
-                Told::Clock(clock) => Some(Ok(Some(clock))),
-                Told::Strange(sentence) => Some(Err(sentence)),
-                Told::Nothing(field) => {
-                    idle = idle.or(field);
-                    None
-                }
-            })
+        let mut said = Said::default();
+        self.first(|t_ns, message| {
+            let told = point_clock(self.messages, message, t_ns)?;
+            Ok(said.hear(told).then_some(()))
         })?;
-        let idle = idle.filter(|_| self.topic.motion_corrected != Some(true));
+        let idle = said.idle.filter(|_| self.topic.motion_corrected != Some(true));
         let unused = |field| format!("`{field}` is the same for all points of each scan, and is not used");
-        Ok(found.unwrap_or_else(|| idle.map_or(Ok(None), |field| Err(unused(field)))))
+        Ok(match (said.clock(), idle) {
+            (Ok(None), Some(field)) => Err(unused(field)),
+            (found, _) => found,
+        })
     }
 
     /// Why the first message can't be read whose header can't.

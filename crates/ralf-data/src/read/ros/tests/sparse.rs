@@ -81,6 +81,28 @@ fn the_first_scan_whose_times_differ_tells_how_points_tell_theirs() {
     }
 }
 
+/// Nanoseconds: the first scan is half a millisecond long, or has a stray time, and the others are whole.
+#[test]
+fn a_scan_that_is_cut_short_does_not_tell_the_unit_alone() {
+    let whole = [0.0, 9.9e7];
+    for scans in
+        [&[[0.0, 5e5], whole][..], &[[0.0, 5e5], [0.0, 4e5], whole, whole], &[[0.0, 3.0], whole, whole]]
+    {
+        let (_folder, path) = recording(|drive, to| {
+            odometry(drive, to);
+            let roof = scans.iter().zip(1..).map(|(times, k)| revolution(drive, 100 * k, times));
+            write(to, "/roof", roof.collect::<Vec<_>>());
+        });
+        let drive = open_file(&path, &without("front")).unwrap();
+        assert!(
+            drive.warnings()[0].contains("points carry their times (`time`, ns)"),
+            "{:?}",
+            drive.warnings()
+        );
+        assert_eq!(drive.lidar_scan(0, scans.len() - 1).unwrap().times.unwrap(), [0.0, 0.099]);
+    }
+}
+
 #[test]
 fn times_that_never_differ_are_told_and_not_used() {
     let (_folder, path) = recording(|drive, to| {
