@@ -5,6 +5,7 @@
 
 mod camera;
 mod cloud;
+mod frames;
 mod guess;
 mod inspection;
 mod messages;

@@ -28,7 +28,7 @@ pub(super) fn motion(
     let odometry = part(messages, topics, survey, vehicle, TopicKind::Odometry)?;
     let twist = part(messages, topics, survey, vehicle, TopicKind::Twist)?;
     let imu = part(messages, topics, survey, vehicle, TopicKind::Imu)?;
-    let poses = odometry.as_ref().map_or_else(|| Ok(Vec::new()), |part| part.poses(messages))?;
+    let poses = odometry.as_ref().map_or_else(|| Ok(Vec::new()), |part| part.poses(messages, warnings))?;
     let moving = twist.or(odometry);
     let mut wheels = moving.as_ref().map_or_else(Vec::new, |part| part.velocities(&poses, warnings));
     let idle = topics.iter().filter(|(name, topic)| topic.kind == TopicKind::Imu && !survey.tells(name));
@@ -81,19 +81,35 @@ fn part<'a>(
 }
 
 impl Part<'_> {
-    fn poses(&self, messages: &Messages) -> Result<Vec<PoseSample>, DataError> {
+    /// The poses; a warning counts the messages that have none, as of programs that have just begun.
+    fn poses(&self, messages: &Messages, warnings: &mut Vec<String>) -> Result<Vec<PoseSample>, DataError> {
         let child_from_vehicle = self.vehicle_from_child.inverse();
         let pose = |sample: &MotionSample| {
-            let fixed_from_child = transform_from_parts(sample.pose.position, sample.pose.orientation)
-                .ok_or_else(|| {
-                    let place = format!("{} at {} ns", self.topic.topic, sample.t_ns);
-                    let expected =
-                        "a finite position and a unit quaternion (the kind twist takes the velocities alone)";
-                    DataError::content(messages.path(), place, expected, format!("{:?}", sample.pose))
-                })?;
-            Ok(PoseSample { t_ns: sample.t_ns, odom_from_vehicle: fixed_from_child * child_from_vehicle })
+            let odom_from_vehicle = fixed_from_child(sample)? * child_from_vehicle;
+            Some(PoseSample { t_ns: sample.t_ns, odom_from_vehicle })
         };
-        self.track.samples.iter().map(pose).collect()
+        let samples = &self.track.samples;
+        let poses: Vec<PoseSample> = samples.iter().filter_map(pose).collect();
+        let (topic, all, lost) = (&self.topic.topic, samples.len(), samples.len() - poses.len());
+        if let (true, Some(first)) = (poses.is_empty(), samples.first()) {
+            let place = format!("{topic} at {} ns", first.t_ns);
+            let expected =
+                "a finite position and a unit quaternion (the kind twist takes the velocities alone)";
+            return Err(DataError::content(messages.path(), place, expected, format!("{:?}", first.pose)));
+        }
+        if lost > 0 {
+            warnings.push(format!(
+                "{topic}: {lost} of {all} messages have no pose (a finite position and a unit quaternion), and are \
+                 not used"
+            ));
+        }
+        Ok(poses)
+    }
+
+    /// The samples that are used: of an odometry those with a pose.
+    fn samples(&self) -> impl Iterator<Item = &MotionSample> {
+        let has_poses = self.topic.kind == TopicKind::Odometry;
+        self.track.samples.iter().filter(move |sample| !has_poses || fixed_from_child(sample).is_some())
     }
 
     /// The twists that tell a velocity. Programs that estimate poses alone leave theirs at zero or NaN: where the poses
@@ -103,7 +119,7 @@ impl Part<'_> {
         let name = &self.topic.topic;
         let is_zero = |sample: &MotionSample| sample.twist.linear.iter().all(|v| *v == 0.0 || !v.is_finite());
         let metres = farthest(poses);
-        if !told.is_empty() && metres >= MOVED && self.track.samples.iter().all(is_zero) {
+        if !told.is_empty() && metres >= MOVED && self.samples().all(is_zero) {
             warnings.push(format!(
                 "{name}: all its velocities are 0 while the poses move by {metres:.0} m: they are not used, and the \
                  poses tell how fast the vehicle is"
@@ -135,8 +151,13 @@ impl Part<'_> {
             let velocity = rotation * Vector::from(sample.twist.linear) - turn.cross(&lever);
             OdometrySample { t_ns: sample.t_ns, velocity: velocity.x, yaw_rate: turn.z }
         };
-        self.track.samples.iter().map(twist).collect()
+        self.samples().map(twist).collect()
     }
+}
+
+/// The pose of a message, if it has one.
+fn fixed_from_child(sample: &MotionSample) -> Option<Transform> {
+    transform_from_parts(sample.pose.position, sample.pose.orientation)
 }
 
 /// How far from the first the farthest pose lies, m.

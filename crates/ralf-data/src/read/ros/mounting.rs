@@ -47,10 +47,11 @@ pub(super) fn mounting(
         Err(error) => {
             let expected =
                 format!("a transform from `{vehicle}` in the topics of the kinds tf and tf_static");
-            let unread = survey.unread_frames(messages).into_iter().map(|sentence| format!("; {sentence}"));
-            return refused(expected, error.to_string() + &unread.collect::<String>());
+            let lost = survey.lost_frames(messages).into_iter().map(|sentence| format!("; {sentence}"));
+            return refused(expected, error.to_string() + &lost.collect::<String>());
         }
     };
+    survey.frames.check(messages, &chain)?;
     // Outside of what is told nobody says that it moved.
     let mounted = chain.held_at(span[0]);
     let mut places = chain.told(span).into_iter().chain(span).map(|t_ns| (t_ns, chain.held_at(t_ns)));

@@ -1,5 +1,6 @@
 //! One look at every message that matters, in the order of the file: times, motion, frames, calibrations.
 
+use super::frames::Frames;
 use super::messages::Messages;
 use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
 use super::track::Track;
@@ -10,7 +11,7 @@ use ralf_ros::message::{
     CameraInfo, CompressedImage, Definition, Image, Imu, Message, Odometry, PointCloud2, Pose, RadarScan,
     TfMessage, Twist, TwistStamped,
 };
-use ralf_ros::tf::{Kind, TfTree};
+use ralf_ros::tf::Kind;
 use std::collections::BTreeMap;
 
 /// What a recording holds of the topics that were asked for.
@@ -20,7 +21,7 @@ pub(super) struct Survey {
     pub(super) sensors: BTreeMap<String, Track>,
     /// Odometry, twists and IMUs, by name.
     pub(super) motion: BTreeMap<String, MotionTrack>,
-    pub(super) frames: TfTree,
+    pub(super) frames: Frames,
     /// The calibration of each camera, by the place of its topic.
     pub(super) infos: BTreeMap<usize, (MessageRef, CameraInfo)>,
     /// Messages that can't be read. Those of sensors stand in their tracks, too.
@@ -149,19 +150,23 @@ impl Survey {
         self.motion.contains_key(name)
     }
 
-    /// What is said of the messages of the tree of frames that can't be read.
-    pub(super) fn unread_frames(&self, messages: &Messages) -> Vec<String> {
+    /// What is said of the tree of frames: messages that can't be read, transforms that are not used.
+    pub(super) fn lost_frames(&self, messages: &Messages) -> Vec<String> {
         let topics = messages.container().topics();
-        self.unread.sentences(messages, |topic| TfMessage::DEFINITION.is(&topics[topic].type_name))
+        let unread =
+            self.unread.sentences(messages, |topic| TfMessage::DEFINITION.is(&topics[topic].type_name));
+        unread.into_iter().chain(self.frames.left_out(messages)).collect()
     }
 
-    /// What is said of the messages that can't be read, but those of sensors: they are named one by one.
+    /// What is said of the messages that can't be read, but those of sensors: they are named one by one; and of the
+    /// transforms that are not used.
     pub(super) fn losses(&self, messages: &Messages, topics: &Topics) -> Vec<String> {
         let is_sensor = |name: &str| {
             topics.iter().any(|(sensor, topic)| topic.topic == name && self.sensors.contains_key(sensor))
         };
         let topics = messages.container().topics();
-        self.unread.sentences(messages, |topic| !is_sensor(&topics[topic].name))
+        let unread = self.unread.sentences(messages, |topic| !is_sensor(&topics[topic].name));
+        unread.into_iter().chain(self.frames.left_out(messages)).collect()
     }
 
     /// Takes what a message says.
@@ -190,14 +195,8 @@ impl Survey {
                 );
             }
             Role::Frames(kind) => {
-                for transform in messages.decoded(message, bytes, TfMessage::from_bytes)?.transforms {
-                    self.frames.add(&transform, kind).map_err(|error| {
-                        let error = error.to_string();
-                        let (frame, reason) = error.split_once(": ").unwrap_or(("", &error));
-                        let place = ["transforms", frame].join(" ");
-                        Trouble::Contradiction(messages.refused(message, place.trim_end(), reason))
-                    })?;
-                }
+                let found = messages.decoded(message, bytes, TfMessage::from_bytes)?;
+                found.transforms.iter().for_each(|transform| self.frames.add(message, transform, kind));
             }
             Role::Calibration => self.calibrate(messages, message, bytes)?,
         }

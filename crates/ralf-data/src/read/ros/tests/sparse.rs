@@ -306,3 +306,72 @@ fn a_mounting_is_held_where_nothing_tells_of_it() {
         assert!((x - 3.5).abs() <= 0.005 && opened.warnings().is_empty(), "{x} of {ms:?}");
     }
 }
+
+/// A program that has just begun has no pose yet.
+#[test]
+fn odometry_without_a_pose_is_not_used() {
+    let opened = |nones: usize| {
+        let (_folder, path) = recording(|drive, to| {
+            write(to, "/front", [scan(drive, 0, &[0.5])]);
+            let none = Pose { orientation: [0.0; 4], ..Pose::default() };
+            let message = |k: i64| match drive.odometry(100 * k) {
+                odometry if k < nones as i64 => {
+                    (100 * k, Odometry { pose: none, twist: Twist::default(), ..odometry })
+                }
+                odometry => (100 * k, odometry),
+            };
+            write(to, "/odom", (0..8).map(message));
+        });
+        open_file(&path, &without("roof"))
+    };
+    let drive = opened(2).unwrap();
+    let told =
+        "/odom: 2 of 8 messages have no pose (a finite position and a unit quaternion), and are not used";
+    assert_eq!(drive.warnings(), [told]);
+    let motion = &drive.sequence().motion;
+    assert_eq!((motion.poses().len(), motion.odometry().len(), motion.odometry()[0].velocity), (6, 6, 8.0));
+    let refused = opened(8).err().unwrap().to_string();
+    assert!(refused.contains("(the kind twist takes the velocities alone), found Pose"), "{refused}");
+}
+
+/// A gripper's transform that is none, a mast that is told of twice, and a vehicle in two frames.
+#[test]
+fn a_transform_that_is_none_costs_those_alone_who_need_it() {
+    let opened = |at: [&'static str; 2], turned: [f64; 4], kind: &str| {
+        let (_folder, path) = recording(|drive, to| {
+            odometry(drive, to);
+            write(to, "/front", [scan(drive, 0, &[0.5])]);
+            let mut message = drive.transform(0, at, [3.0, 0.0, 0.5]);
+            message.transforms[0].transform.orientation = turned;
+            let fixed = drive.transform(0, ["odom", "base"], [0.0; 3]);
+            write(to, "/tf_static", [(1, fixed), (2, message.clone()), (3, message)]);
+        });
+        open_file(&path, &without("roof").replace("'tf_static' }", kind))
+    };
+    let (none, unturned, kind) = ([0.0; 4], [0.0, 0.0, 0.0, 1.0], "'tf_static' }");
+    for (at, turned, reason) in [
+        (
+            ["base", "gripper"],
+            none,
+            "transforms gripper in base: expected finite numbers and a unit quaternion",
+        ),
+        (["map", "base"], unturned, "transforms base: expected one parent, found odom and map"),
+    ] {
+        let drive = opened(at, turned, kind).unwrap();
+        let [told] = drive.warnings() else { panic!("{:?}", drive.warnings()) };
+        let count = format!("2 transforms of the frame `{}` are not used; the first: ", at[1]);
+        assert!(told.starts_with(&count) && told.contains(reason), "{told}");
+    }
+    assert!(opened(["base", "radar"], unturned, kind).unwrap().warnings().is_empty(), "told again");
+    let error = |at, turned, kind| opened(at, turned, kind).err().unwrap().to_string();
+    assert!(
+        error(["base", "radar"], none, kind).contains("transforms radar in base: expected finite numbers")
+    );
+    assert!(error(["mast", "radar"], unturned, kind).contains("transforms radar: expected one parent"));
+    // Where the way to the vehicle's frame lacks it, it is told, too.
+    let lacking = error(["base", "car"], none, "'tf_static', vehicle_frame = 'car' }");
+    assert!(
+        lacking.contains("no frame `car`") && lacking.contains("; 2 transforms of the frame `car`"),
+        "{lacking}"
+    );
+}
