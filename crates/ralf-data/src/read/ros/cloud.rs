@@ -3,8 +3,8 @@
 use super::messages::Messages;
 use super::point_clock::{PointClock, Told};
 use crate::error::DataError;
-use crate::read::radial::radial;
-use ralf::sensors::LidarScan;
+use crate::read::radial::{radial, radial_3d};
+use ralf::sensors::{Elevation, LidarScan};
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{Message, PointCloud2, RadarReturn, RadarScan};
 use ralf_ros::point_cloud::{PointCloudError, PointTable};
@@ -17,15 +17,17 @@ pub(super) struct Columns {
     pub(super) rows: usize,
 }
 
-/// What is derived where a cloud has the two components of a velocity and no range rate of this name.
-const DERIVED: [(&str, [&str; 2]); 2] =
-    [("doppler", ["vx", "vy"]), ("doppler_compensated", ["vx_comp", "vy_comp"])];
+/// A range rate that is derived, and the components of the velocity that it derives from.
+type Derived = (&'static str, [&'static str; 3]);
 
-/// The range rates that derive from fields of these names, with the components that they derive from.
-fn derived(names: &[String]) -> Vec<(&'static str, [&'static str; 2])> {
+/// What is derived where a cloud has the first two components of a velocity and no range rate of this name.
+const DERIVED: [Derived; 2] =
+    [("doppler", ["vx", "vy", "vz"]), ("doppler_compensated", ["vx_comp", "vy_comp", "vz_comp"])];
+
+/// The range rates that derive from fields of these names.
+fn derived(names: &[String]) -> Vec<Derived> {
     let has = |name: &str| names.iter().any(|known| known == name);
-    let is_derived =
-        |(name, [vx, vy]): &(&str, [&str; 2])| !has(name) && ["x", "y", vx, vy].into_iter().all(has);
+    let is_derived = |(name, [vx, vy, _]): &Derived| !has(name) && ["x", "y", vx, vy].into_iter().all(has);
     DERIVED.into_iter().filter(is_derived).collect()
 }
 
@@ -34,10 +36,12 @@ pub(crate) fn derives_doppler(fields: &[String]) -> bool {
     !derived(fields).is_empty()
 }
 
-/// Every field of a radar's scan under its own name, and those range rates that derive from them and are wanted.
+/// Every field of a radar's scan under its own name, and those range rates that derive from them and are wanted: in
+/// space where the radar measures elevation, else in its plane.
 pub(super) fn radar_columns(
     messages: &Messages,
     message: &MessageRef,
+    elevation: Elevation,
     is_wanted: impl Fn(&str) -> bool,
 ) -> Result<Columns, DataError> {
     if RadarScan::DEFINITION.is(&messages.topic(message).type_name) {
@@ -48,11 +52,8 @@ pub(super) fn radar_columns(
     let names: Vec<String> = table.names().map(str::to_owned).collect();
     let values = names.iter().filter_map(|name| table.column(name)).collect();
     let mut columns = Columns { names, values, rows: table.len() };
-    for (name, components) in derived(&columns.names).into_iter().filter(|(name, _)| is_wanted(name)) {
-        if let ([Some(vx), Some(vy)], [Some(x), Some(y)]) =
-            (columns.pair(components), columns.pair(["x", "y"]))
-        {
-            let derived = radial(x, y, vx, vy);
+    for (name, velocity) in derived(&columns.names).into_iter().filter(|(name, _)| is_wanted(name)) {
+        if let Some(derived) = columns.along_rays(velocity, elevation) {
             columns.names.push(name.to_owned());
             columns.values.push(derived);
         }
@@ -102,8 +103,13 @@ impl Columns {
         self.values.get(place).map(Vec::as_slice)
     }
 
-    fn pair(&self, names: [&str; 2]) -> [Option<&[f32]>; 2] {
-        names.map(|name| self.get(name))
+    /// The part of a velocity along each ray. Without its third component nothing is known but what lies in the plane.
+    fn along_rays(&self, [vx, vy, vz]: [&str; 3], elevation: Elevation) -> Option<Vec<f32>> {
+        let [x, y, vx, vy] = [self.get("x")?, self.get("y")?, self.get(vx)?, self.get(vy)?];
+        Some(match (elevation, self.get("z"), self.get(vz)) {
+            (Elevation::Measured, Some(z), Some(vz)) => radial_3d([x, y, z], [vx, vy, vz]),
+            _ => radial(x, y, vx, vy),
+        })
     }
 }
 

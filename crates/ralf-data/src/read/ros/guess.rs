@@ -6,6 +6,7 @@ use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey, vehicle};
 use crate::error::DataError;
 use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
+use ralf::sensors::Elevation;
 use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
@@ -167,7 +168,8 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig 
         model: Some(model.to_owned()),
         ..TopicConfig::new(&topic.name, kind)
     };
-    let scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message, |_| true).ok());
+    let scans = of_topic
+        .filter_map(|message| cloud::radar_columns(messages, message, Elevation::None, |_| true).ok());
     let is_lidar = |fields: &[String]| {
         let has = |name: &&str| fields.iter().any(|known| known == name);
         !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)

@@ -227,7 +227,8 @@ impl Asked<'_> {
         let mut of_empty = None;
         let is_wanted = |_: &str| self.topic.derive_doppler != Some(false);
         let found = self.first(|_, message| {
-            let Columns { names, rows, .. } = radar_columns(self.messages, message, is_wanted)?;
+            let Columns { names, rows, .. } =
+                radar_columns(self.messages, message, Elevation::None, is_wanted)?;
             if rows > 0 {
                 return Ok(Some((*message, names)));
             }

@@ -90,7 +90,7 @@ impl Source for Drive {
         let message = measurement("radar", &self.radars, radar, scan)?;
         let model = &self.sequence.rig.radars[radar];
         let is_wanted = |name: &str| model.column(name).is_some();
-        let columns = radar_columns(&self.origin.messages, message, is_wanted)?;
+        let columns = radar_columns(&self.origin.messages, message, model.elevation, is_wanted)?;
         let t_ns = self.sequence.times.radars[radar][scan];
         if columns.rows == 0 {
             // Some drivers leave the fields out where nothing was detected.

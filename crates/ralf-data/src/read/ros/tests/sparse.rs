@@ -375,3 +375,27 @@ fn a_transform_that_is_none_costs_those_alone_who_need_it() {
         "{lacking}"
     );
 }
+
+/// A detection at (2, 3, 6), 7 m away, whose velocity is (7, 14, 21).
+#[test]
+fn range_rates_lie_along_the_ray_that_is_measured() {
+    let doppler = |elevation: &str, third: &str| {
+        let (_folder, path) = recording(|drive, to| {
+            odometry(drive, to);
+            let mut cloud = drive.cloud(0, &[[2.0, 3.0, 6.0, 7.0, 14.0]], "vx");
+            cloud.fields.push(PointField::new(third, 20, Datatype::Float32));
+            cloud.data.extend(21.0_f32.to_le_bytes());
+            (cloud.point_step, cloud.row_step) = (24, 24);
+            write(to, "/front", [(0, cloud)]);
+        });
+        let table = without("roof").replace("'generic'", &format!("'generic', elevation = {elevation}"));
+        let drive = open_file(&path, &table).unwrap();
+        assert_eq!(drive.sequence().rig.radars[0].fields[6], "doppler");
+        drive.radar_scan(0, 0).unwrap().columns[6][0]
+    };
+    assert_eq!(doppler("true", "vz"), 26.0);
+    let in_plane = 56.0 / 13.0_f32.sqrt();
+    for found in [doppler("false", "vz"), doppler("true", "other")] {
+        assert!((found - in_plane).abs() < 1e-5, "{found}");
+    }
+}
