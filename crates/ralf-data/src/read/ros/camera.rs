@@ -50,6 +50,18 @@ pub(super) fn intrinsics(info: &CameraInfo, rectified: bool) -> Result<Intrinsic
     }
 }
 
+/// Whether two calibrations are the same, whenever they were sent; numbers that are none are as good as each other.
+pub(super) fn is_same(a: &CameraInfo, b: &CameraInfo) -> bool {
+    let same = |a: &[f64], b: &[f64]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b || a.is_nan() && b.is_nan())
+    };
+    let all = [(&a.d[..], &b.d[..]), (&a.k, &b.k), (&a.r, &b.r), (&a.p, &b.p)];
+    let whole = |info: &CameraInfo| {
+        (info.height, info.width, info.distortion_model.clone(), info.binning_x, info.binning_y, info.roi)
+    };
+    whole(a) == whole(b) && all.into_iter().all(|(a, b)| same(a, b))
+}
+
 fn is_fisheye(info: &CameraInfo) -> bool {
     matches!(info.distortion_model.as_str(), "equidistant" | "fisheye")
 }
@@ -97,6 +109,18 @@ mod tests {
         let rectified =
             Intrinsics::Pinhole { focal: [400.0, 410.0], center: [300.0, 200.0], distortion: [0.0; 5] };
         assert_eq!(intrinsics(&info("plumb_bob", &five), true), Ok(rectified));
+    }
+
+    #[test]
+    fn calibrations_are_compared_number_by_number() {
+        let header = ralf_ros::message::Header { stamp_ns: 7, ..Default::default() };
+        let first = info("plumb_bob", &[f64::NAN, 0.0]);
+        assert!(is_same(&first, &CameraInfo { header, ..first.clone() }));
+        for d in [&[0.5, 0.0][..], &[f64::NAN, 0.1], &[f64::NAN]] {
+            assert!(!is_same(&first, &info("plumb_bob", d)), "{d:?}");
+        }
+        assert!(!is_same(&first, &info("equidistant", &[f64::NAN, 0.0])));
+        assert!(!is_same(&first, &CameraInfo { width: 641, ..first.clone() }));
     }
 
     #[test]

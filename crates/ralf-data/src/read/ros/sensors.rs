@@ -303,14 +303,11 @@ impl Asked<'_> {
         })?;
         let intrinsics = intrinsics(info, topic.rectified.unwrap_or_default())
             .map_err(|(expected, found)| messages.error(message, "calibration", expected, found))?;
-        Ok(Camera {
-            name: name.to_owned(),
-            vehicle_from_camera,
-            width: info.width as usize,
-            height: info.height as usize,
-            intrinsics,
-            views: Vec::new(),
-        })
+        let (width, height) = (info.width as usize, info.height as usize);
+        let name = name.to_owned();
+        let camera = Camera { name, vehicle_from_camera, width, height, intrinsics, views: Vec::new() };
+        camera.check().map_err(|reason| messages.refused(message, "calibration", &reason))?;
+        Ok(camera)
     }
 
     fn model<M: Copy>(&self, models: &[(&str, M)]) -> Result<M, DataError> {

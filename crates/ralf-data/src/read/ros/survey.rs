@@ -1,5 +1,6 @@
 //! One look at every message that matters, in the order of the file: times, motion, frames, calibrations.
 
+use super::camera;
 use super::frames::Frames;
 use super::messages::Messages;
 use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
@@ -217,7 +218,7 @@ impl Survey {
     fn calibrate(&mut self, messages: &Messages, message: &MessageRef, bytes: &[u8]) -> Result<(), Trouble> {
         let info = messages.decoded(message, bytes, CameraInfo::from_bytes)?;
         let (_, known) = self.infos.entry(message.topic()).or_insert_with(|| (*message, info.clone()));
-        if (CameraInfo { header: known.header.clone(), ..info }) == *known {
+        if camera::is_same(&info, known) {
             return Ok(());
         }
         let expected = "the calibration of the messages before";

@@ -27,7 +27,11 @@ struct Drive {
     bag: bool,
     stamped: bool,
     camera_frame: &'static str,
+    /// The focal length of each calibration, px.
     infos: Vec<f64>,
+    distortion: [f64; 5],
+    /// As the calibration has it, px.
+    image_width: u32,
     images: i64,
     /// How far ahead the radars' mast is at these times, ms and m.
     mast: Vec<(i64, f64)>,
@@ -48,7 +52,21 @@ impl Default for Drive {
         let (vehicle, radar_fields) = ("base", ["vx", "vx"]);
         let (radar, parked) = ("radar", false);
         let lidar = (vec![[1.0, 2.0, 3.0, 0.0]], "other");
-        Self { bag, stamped, camera_frame, infos, images, mast, vehicle, radar_fields, radar, parked, lidar }
+        Self {
+            bag,
+            stamped,
+            camera_frame,
+            infos,
+            distortion: [0.1, 0.0, 0.0, 0.0, 0.2],
+            image_width: 2,
+            images,
+            mast,
+            vehicle,
+            radar_fields,
+            radar,
+            parked,
+            lidar,
+        }
     }
 }
 
@@ -149,9 +167,9 @@ impl Drive {
             let info = CameraInfo {
                 header: self.header(50, self.camera_frame),
                 height: 1,
-                width: 2,
+                width: self.image_width,
                 distortion_model: "plumb_bob".to_owned(),
-                d: vec![0.1, 0.0, 0.0, 0.0, 0.2],
+                d: self.distortion.to_vec(),
                 k: [*focal, 0.0, 1.0, 0.0, *focal, 0.5, 0.0, 0.0, 1.0],
                 ..CameraInfo::default()
             };

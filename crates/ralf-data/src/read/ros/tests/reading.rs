@@ -149,6 +149,10 @@ fn a_camera_that_can_not_be_placed_or_calibrated_is_left_out() {
     for drive in [
         Drive { camera_frame: "nowhere", ..Drive::default() },
         Drive { infos: vec![0.0], ..Drive::default() },
+        Drive { infos: vec![f64::NAN; 2], ..Drive::default() },
+        Drive { distortion: [f64::NAN, 0.0, 0.0, 0.0, 0.0], infos: vec![100.0; 2], ..Drive::default() },
+        Drive { distortion: [0.0, 0.0, 0.0, 0.0, f64::INFINITY], ..Drive::default() },
+        Drive { image_width: 0, ..Drive::default() },
     ] {
         let (_folder, path) = drive.write();
         let drive = open_file(&path, TABLE).unwrap();
