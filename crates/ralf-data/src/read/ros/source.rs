@@ -17,7 +17,7 @@ use ralf::sensors::{
 };
 use ralf_ros::container::Container;
 use std::any::Any;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The messages behind a sequence: its [`origin`](SequenceReader::origin).
 pub(crate) struct RosOrigin {
@@ -61,7 +61,7 @@ impl Drive {
         warnings.extend(survey.losses(&messages, topics));
         let vehicle = vehicle_frame(&messages, topics, &survey)?;
         let motion = motion(&messages, topics, &survey, &vehicle, &mut warnings)?;
-        let name = messages.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = sequence_name(messages.path());
         let title = format!("{} topics", messages.container().topics().len());
         let sensors = Sensors::of(&messages, topics, &survey, &vehicle)?;
         let Sensors { rig, times, radars, lidars, cameras, clocks, radar_frames, absent, .. } = sensors;
@@ -79,6 +79,12 @@ impl Drive {
         let t_ns = self.sequence.times.lidars[lidar][scan];
         lidar_scan(&self.origin.messages, message, t_ns, self.clocks[lidar].clock.as_ref())
     }
+}
+
+/// A file's name without its ending; a folder's whole, for its dots are part of it.
+fn sequence_name(path: &Path) -> String {
+    let name = if path.is_dir() { path.file_name() } else { path.file_stem() };
+    name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
 impl Source for Drive {
@@ -151,5 +157,19 @@ impl SequenceReader for Drive {
 
     fn origin(&self) -> Option<&dyn Any> {
         Some(&self.origin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_keep_their_dots() {
+        let root = tempfile::tempdir().unwrap();
+        let [folder, file] = ["drive.1", "drive.2.mcap"].map(|name| root.path().join(name));
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(&file, "").unwrap();
+        assert_eq!([sequence_name(&folder), sequence_name(&file)], ["drive.1", "drive.2"]);
     }
 }
