@@ -148,10 +148,13 @@ fn check_lengths(cloud: &PointCloud2) -> Result<(), PointCloudError> {
     if point_step == 0 {
         return Err(PointCloudError::new("point_step", "at least 1 byte", "0"));
     }
-    let row = width.checked_mul(point_step).filter(|row| *row <= row_step).ok_or_else(|| {
+    // Nothing follows a single row: drivers leave its length at 0.
+    let is_long_enough = |row: &usize| height == 1 || *row <= row_step;
+    let row = width.checked_mul(point_step).filter(is_long_enough).ok_or_else(|| {
         let expected = format!("at least width x point_step = {width} x {point_step}");
         PointCloudError::new("row_step", expected, row_step.to_string())
     })?;
+    let row_step = row_step.max(row);
     // The last row may lack its padding.
     let least = (height - 1).checked_mul(row_step).and_then(|rows| rows.checked_add(row));
     let most = height.checked_mul(row_step);
@@ -312,6 +315,20 @@ mod tests {
         assert!(error(&|c| c.fields[0].datatype = 11).contains("a datatype of 1 to 8, found 11"));
         assert!(error(&|c| c.fields[1].name = "y".to_owned()).contains("unique names, found `y` twice"));
         assert!(error(&|c| c.fields[1].name = "bits_0".to_owned()).contains("`bits_0` twice"));
+    }
+
+    #[test]
+    fn a_single_row_needs_no_length() {
+        let one = |row_step: u32, bytes: usize| {
+            let mut one = PointCloud2 { height: 1, row_step, ..cloud(false) };
+            one.data.truncate(bytes);
+            PointTable::new(&one).map(|table| table.column("x"))
+        };
+        let read = Ok(Some(vec![-300.0, -301.0]));
+        assert_eq!([one(0, 32), one(2, 32), one(36, 36), one(36, 32)], [(); 4].map(|()| read.clone()));
+        let error = one(0, 31).unwrap_err().to_string();
+        assert_eq!(error, "data: expected height x row_step = 1 x 32 bytes, found 31");
+        assert!(one(0, 33).is_err(), "nothing tells of more");
     }
 
     #[test]
