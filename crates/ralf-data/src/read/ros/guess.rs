@@ -6,6 +6,7 @@ use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey, vehicle};
 use crate::error::DataError;
 use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
+use crate::tree::GROUND_TRUTH;
 use ralf::sensors::Elevation;
 use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
@@ -71,7 +72,7 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
         if topic.name.ends_with(LABELLED) {
             guess.remarks.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
         } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
-            guess.add(cloud_entry(messages, topic, place));
+            guess.add_cloud(messages, topic, place);
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
             guess.add_camera(topics, topic);
         } else if survey::types(TopicKind::Tf)[0].is(&topic.type_name) {
@@ -88,12 +89,29 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
 }
 
 impl Guess {
-    /// Under the topic's short name, or where that is taken the whole one, or that with a number.
+    /// A radar or a LiDAR; no map of the world, which nothing fixes to the vehicle.
+    fn add_cloud(&mut self, messages: &Messages, topic: &Topic, place: usize) {
+        let mut of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+        // What can't be read is told by whoever reads all of it.
+        let frame = of_topic.find_map(|message| frame(messages, message)).unwrap_or_default();
+        let entry = cloud_entry(messages, topic, place, &frame);
+        if entry.kind == TopicKind::Lidar && vehicle::is_world(&frame) {
+            let why = format!("its points lie in the frame `{frame}`, which is no part of a vehicle");
+            self.remarks.push(format!("{} is not used: {why}", topic.name));
+        } else {
+            self.add(entry);
+        }
+    }
+
+    /// Under the topic's short name, or where that is taken the whole one, or that with a number. No sensor is called
+    /// as the folder that labels of people lie in.
     fn add(&mut self, entry: TopicConfig) {
         let long = entry.topic.trim_matches('/').replace('/', "_");
         let numbered = (2..).map(|number| format!("{long}_{number}"));
         let mut names = [name(&entry.topic), long.clone()].into_iter().chain(numbered);
-        if let Some(free) = names.find(|name| !self.topics.contains_key(name)) {
+        let is_taken =
+            |name: &String| self.topics.contains_key(name) || name.eq_ignore_ascii_case(GROUND_TRUTH);
+        if let Some(free) = names.find(|name| !is_taken(name)) {
             self.topics.insert(free, entry);
         }
     }
@@ -106,10 +124,10 @@ impl Guess {
             topics.iter().any(|known| known.name == *info && CameraInfo::DEFINITION.is(&known.type_name))
         });
         let Some(info) = info else { return refuse(self, "no camera_info beside it") };
-        if topic.name.contains("depth") {
+        if is_called(topic, "depth") {
             return refuse(self, "it looks like depth");
         }
-        let rectified = topic.name.contains("rect");
+        let rectified = is_called(topic, "rect");
         let entry = TopicConfig {
             info: Some(info),
             rectified: rectified.then_some(true),
@@ -159,11 +177,9 @@ impl Guess {
 }
 
 /// A radar, if it is one by type, name or fields; else a LiDAR. Where no scan can be read, a LiDAR if it is called one.
-fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig {
+fn cloud_entry(messages: &Messages, topic: &Topic, place: usize, frame: &str) -> TopicConfig {
     let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
-    // What can't be read is told by whoever reads all of it.
-    let frame = of_topic.clone().find_map(|message| frame(messages, message)).unwrap_or_default();
-    let names = [topic.name.as_str(), &frame];
+    let names = [topic.name.as_str(), frame];
     let with_model = |kind, model: &str| TopicConfig {
         model: Some(model.to_owned()),
         ..TopicConfig::new(&topic.name, kind)
@@ -172,12 +188,12 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig 
         .filter_map(|message| cloud::radar_columns(messages, message, Elevation::None, |_| true).ok());
     let is_lidar = |fields: &[String]| {
         let has = |name: &&str| fields.iter().any(|known| known == name);
-        !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)
+        !is_called(topic, "radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)
     };
     let Some(Scans { fields, heights }) = Scans::of(scans, is_lidar) else {
         return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
     };
-    let is_called_lidar = topic.name.contains("lidar") || named_in(&names, &LIDARS) != GENERIC;
+    let is_called_lidar = is_called(topic, "lidar") || named_in(&names, &LIDARS) != GENERIC;
     if fields.is_empty() && is_called_lidar {
         return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
     }
@@ -221,6 +237,11 @@ impl Scans {
     }
 }
 
+/// Whether a topic's name has this part, however it is written.
+fn is_called(topic: &Topic, part: &str) -> bool {
+    topic.name.to_ascii_lowercase().contains(part)
+}
+
 /// The place of the third coordinate.
 fn third(fields: &[String]) -> Option<usize> {
     fields.iter().position(|name| ["z", "elevation"].contains(&name.as_str()))
@@ -243,7 +264,10 @@ fn namespaces(topic: &str) -> impl Iterator<Item = &str> {
 /// What a sensor is called after its topic: `radar_front` of `/radar_front/points`.
 fn name(topic: &str) -> String {
     let mut parts: Vec<&str> = topic.split('/').filter(|part| !part.is_empty()).collect();
-    let is_plain = |part: &str| PLAIN_NAMES.contains(&part) || part.starts_with("image_");
+    let is_plain = |part: &str| {
+        let part = part.to_ascii_lowercase();
+        PLAIN_NAMES.contains(&part.as_str()) || part.starts_with("image_")
+    };
     while parts.len() > 1 && parts.last().is_some_and(|part| is_plain(part)) {
         parts.pop();
     }
@@ -276,6 +300,7 @@ mod tests {
         for (topic, expected) in [
             ("/radar_front/points", "radar_front"),
             ("/cam/front/image_rect_color/compressed", "cam_front"),
+            ("/RADAR_FRONT/Points", "RADAR_FRONT"),
             ("/odom", "odom"),
             ("/points", "points"),
         ] {

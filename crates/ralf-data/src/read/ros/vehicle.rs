@@ -119,11 +119,15 @@ impl Frames {
         if let Some(named) = VEHICLES.into_iter().find(|name| self.all.contains(*name)) {
             return Some(named.to_owned());
         }
-        let is_world = |frame: &&String| WORLDS.contains(&frame.as_str());
         let mut roots = self.parents.difference(&self.children).filter(|root| !is_world(root));
         let root = roots.next()?;
         roots.next().is_none().then(|| root.clone())
     }
+}
+
+/// Whether a frame is one of those that no vehicle is.
+pub(super) fn is_world(frame: &str) -> bool {
+    WORLDS.contains(&plain(frame))
 }
 
 /// A frame's name without the slash that early ROS put before it.

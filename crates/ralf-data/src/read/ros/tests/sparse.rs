@@ -399,3 +399,23 @@ fn range_rates_lie_along_the_ray_that_is_measured() {
         assert!((found - in_plane).abs() < 1e-5, "{found}");
     }
 }
+
+#[test]
+fn a_guess_knows_names_in_capitals_maps_and_names_that_are_taken() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        write(to, "/RADAR_FRONT", [(0, drive.cloud(0, &[[8.0; 5]], "other"))]);
+        write(to, "/ground_truth/points", [revolution(drive, 0, &[0.0])]);
+        let map = PointCloud2 { header: drive.header(0, "/map"), ..revolution(drive, 0, &[0.0]).1 };
+        write(to, "/surroundings", [(0, map)]);
+    });
+    let guess = guess(&path).unwrap();
+    let found: Vec<(&str, TopicKind)> =
+        guess.topics.iter().map(|(name, topic)| (name.as_str(), topic.kind)).collect();
+    use TopicKind::{Lidar, Odometry, Radar, TfStatic};
+    let expected =
+        [("RADAR_FRONT", Radar), ("ground_truth_points", Lidar), ("odom", Odometry), ("tf_static", TfStatic)];
+    assert_eq!(found, expected);
+    let told = "/surroundings is not used: its points lie in the frame `/map`, which is no part of a vehicle";
+    assert_eq!(guess.remarks, [told]);
+}
