@@ -1,7 +1,9 @@
 //! Cameras from `sensor_msgs/CameraInfo`.
 
+use nalgebra::Matrix3;
 use ralf::sensors::Intrinsics;
 use ralf_ros::message::{CameraInfo, RegionOfInterest};
+use ralf_ros::tf::SAME_PLACE;
 
 /// The camera model of raw images, or of rectified ones. The error is what was expected and what was found.
 ///
@@ -48,6 +50,24 @@ pub(super) fn intrinsics(info: &CameraInfo, rectified: bool) -> Result<Intrinsic
         }
         _ => refused("plumb_bob with 5, rational_polynomial with 8 or equidistant with 4 coefficients"),
     }
+}
+
+/// What a calibration says of where the camera of its rectified images is, and is left to the tree of frames: some
+/// drivers name the frame of the raw image there, or of a pair's first camera, and some that of the rectified image
+/// itself.
+pub(super) fn left_to_frames(info: &CameraInfo) -> Option<String> {
+    let rectified_from_raw = Matrix3::from_row_slice(&info.r);
+    // Drivers without a rectification leave it at zero.
+    let is_told = rectified_from_raw != Matrix3::zeros();
+    let turn = ((rectified_from_raw.trace() - 1.0) / 2.0).clamp(-1.0, 1.0).acos();
+    let [right, down] = [0.0 - info.p[3] / info.p[0], 0.0 - info.p[7] / info.p[5]];
+    let [metres, radians] = SAME_PLACE;
+    let turned = (is_told && turn > radians).then(|| format!("turned by {:.1} deg (`R`)", turn.to_degrees()));
+    let moved = (right.hypot(down) > metres)
+        .then(|| format!("seen from {right:.3} m to the right and {down:.3} m below (`P`)"));
+    let told: Vec<String> = turned.into_iter().chain(moved).collect();
+    let told = (!told.is_empty()).then(|| told.join(" and "))?;
+    Some(format!("by its calibration rectified images are {told}, which is not applied"))
 }
 
 /// Whether two calibrations are the same, whenever they were sent; numbers that are none are as good as each other.
@@ -109,6 +129,28 @@ mod tests {
         let rectified =
             Intrinsics::Pinhole { focal: [400.0, 410.0], center: [300.0, 200.0], distortion: [0.0; 5] };
         assert_eq!(intrinsics(&info("plumb_bob", &five), true), Ok(rectified));
+    }
+
+    #[test]
+    fn what_a_rectification_moves_is_told() {
+        let (sin, cos) = 0.05_f64.sin_cos();
+        let turned = [cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos];
+        let alike = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let told = |r: [f64; 9], shift: [f64; 2]| {
+            let mut info = CameraInfo { r, ..info("plumb_bob", &[0.0; 5]) };
+            [info.p[3], info.p[7]] = shift;
+            left_to_frames(&info)
+        };
+        assert_eq!(
+            [told(alike, [0.0; 2]), told([0.0; 9], [0.0; 2]), told([f64::NAN; 9], [-0.4, 0.0])],
+            [(); 3].map(|()| None)
+        );
+        let begin = "by its calibration rectified images are";
+        let expected = format!("{begin} turned by 2.9 deg (`R`), which is not applied");
+        assert_eq!(told(turned, [0.0; 2]), Some(expected));
+        let shift = "seen from 0.500 m to the right and 0.000 m below (`P`), which is not applied";
+        assert_eq!(told(alike, [-200.0, 0.0]), Some(format!("{begin} {shift}")));
+        assert_eq!(told(turned, [-200.0, 0.0]), Some(format!("{begin} turned by 2.9 deg (`R`) and {shift}")));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The sensors of a recording: what they are by their settings, their messages and the tree of frames, and when they
 //! measured.
 
-use super::camera::intrinsics;
+use super::camera::{intrinsics, left_to_frames};
 use super::cloud::{Columns, point_clock, radar_columns};
 use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
@@ -15,6 +15,7 @@ use crate::read::models::{LIDARS, RADARS};
 use ralf::sensors::{Camera, Elevation, Radar, Rig, Timelines, check_fields};
 use ralf::space::Transform;
 use ralf_ros::container::MessageRef;
+use ralf_ros::message::CameraInfo;
 
 /// All sensors, in the order of the rig.
 #[derive(Default)]
@@ -153,6 +154,7 @@ impl Sensors {
         };
         match mounted {
             Ok(camera) => {
+                self.warnings.extend(asked.left_to_frames());
                 self.rig.cameras.push(camera);
                 asked.track.keep(&mut self.times.cameras, &mut self.cameras);
             }
@@ -294,13 +296,27 @@ impl Asked<'_> {
         Ok(radar)
     }
 
+    fn calibration(&self) -> Result<&(MessageRef, CameraInfo), DataError> {
+        let place = info_topic(self.messages, self.name, self.topic)?;
+        self.survey.infos.get(&place).ok_or_else(|| {
+            let (asked_by, found) = (format!("topics.{}.info", self.name), "none that can be read");
+            DataError::content(self.messages.path(), asked_by, "a calibration", found)
+        })
+    }
+
+    /// What is said of a calibration that moves rectified images against their frame.
+    fn left_to_frames(&self) -> Option<String> {
+        let (_, info) = self.calibration().ok().filter(|_| self.topic.rectified == Some(true))?;
+        let name = self.name;
+        let frame = self.frame();
+        let hint =
+            format!("right if the frame `{frame}` is theirs, else `corrections.{name}` moves the camera");
+        left_to_frames(info).map(|sentence| format!("{name}: {sentence}: {hint}"))
+    }
+
     fn camera(&self, vehicle_from_camera: Transform) -> Result<Camera, DataError> {
         let Self { messages, name, topic, .. } = *self;
-        let place = info_topic(messages, name, topic)?;
-        let (message, info) = self.survey.infos.get(&place).ok_or_else(|| {
-            let found = "none that can be read";
-            DataError::content(messages.path(), format!("topics.{name}.info"), "a calibration", found)
-        })?;
+        let (message, info) = self.calibration()?;
         let intrinsics = intrinsics(info, topic.rectified.unwrap_or_default())
             .map_err(|(expected, found)| messages.error(message, "calibration", expected, found))?;
         let (width, height) = (info.width as usize, info.height as usize);

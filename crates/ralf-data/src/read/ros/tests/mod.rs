@@ -171,6 +171,7 @@ impl Drive {
                 distortion_model: "plumb_bob".to_owned(),
                 d: self.distortion.to_vec(),
                 k: [*focal, 0.0, 1.0, 0.0, *focal, 0.5, 0.0, 0.0, 1.0],
+                p: [*focal, 0.0, 1.0, -focal * 0.25, 0.0, *focal, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0],
                 ..CameraInfo::default()
             };
             to.write(&infos, T0 + 60 * MS, &info).unwrap();

@@ -162,6 +162,18 @@ fn a_camera_that_can_not_be_placed_or_calibrated_is_left_out() {
     }
 }
 
+#[test]
+fn the_shift_of_a_right_camera_is_told() {
+    let (_folder, path) = Drive::default().write();
+    let rectified = TABLE.replace("info = '/cam/camera_info'", "info = '/cam/camera_info', rectified = true");
+    let drive = open_file(&path, &rectified).unwrap();
+    let told = "cam: by its calibration rectified images are seen from 0.250 m to the right and 0.000 m below (`P`), \
+                which is not applied: right if the frame `camera` is theirs, else `corrections.cam` moves the camera";
+    assert_eq!(drive.warnings(), [told]);
+    assert_eq!(drive.sequence().rig.cameras[0].vehicle_from_camera.translation.x, 1.0);
+    assert_eq!(open_file(&path, TABLE).unwrap().warnings(), [""; 0], "raw images");
+}
+
 /// At 8 m/s a post ahead is measured 40 ms before the scan's time, and another 40 ms after it.
 #[test]
 fn lidar_points_with_times_are_brought_to_the_time_of_their_scan() {
