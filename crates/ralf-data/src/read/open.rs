@@ -9,7 +9,7 @@ use crate::read::{
 };
 use crate::tree::SEQUENCES;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A format that can be read.
 struct Format {
@@ -151,10 +151,24 @@ pub fn open_selected(
         None => FORMATS.iter().find(|format| (format.recognises)(path)).ok_or_else(|| {
             let known = FORMATS.iter().map(|format| format!("{} ({})", format.holds, format.name));
             let expected = known.collect::<Vec<_>>().join(" or ");
-            DataError::content(path, "content", expected, "none of them")
+            DataError::content(path, "content", expected, none_of_them(path))
         }),
     }?;
     with_sound_motion((found.open)(path, topics, names)?.select(names)?)
+}
+
+/// What is found in a folder or file that is no recording. A recorder that was killed leaves files of ROS 2 in a folder
+/// without `metadata.yaml`.
+fn none_of_them(path: &Path) -> String {
+    let is_recording = |file: &PathBuf| {
+        let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
+        ["bag", "db3", "mcap"].iter().any(|known| ending == *known) && ralf_ros::container::recognises(file)
+    };
+    let files = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    files.filter(is_recording).min().map_or_else(
+        || "none of them".to_owned(),
+        |file| format!("none of them, but {}, which can be named itself", file.display()),
+    )
 }
 
 /// The format that a folder or file is recognised as, and whether its readers know the truth of detections.
@@ -177,6 +191,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = |format| open(folder.path(), format).unwrap_err().to_string();
         assert!(error(None).contains("the folder `sequences` (ralf)"), "{}", error(None));
+        assert!(error(None).ends_with("found none of them"), "{}", error(None));
+        for name in ["drive_1.mcap", "drive_0.mcap", "notes.db3"] {
+            let magic: &[u8] = if name.ends_with("mcap") { b"\x89MCAP0\r\n" } else { b"none" };
+            fs::write(folder.path().join(name), magic).unwrap();
+        }
+        let first = folder.path().join("drive_0.mcap");
+        let hint = format!("found none of them, but {}, which can be named itself", first.display());
+        assert!(error(None).ends_with(&hint), "{}", error(None));
         assert!(error(Some("kitti")).contains("expected one of zod, ralf, "), "{}", error(Some("kitti")));
         assert!(error(Some("ralf")).contains("sequences"), "{}", error(Some("ralf")));
         let missing = open(&folder.path().join("nowhere"), None).unwrap_err();
