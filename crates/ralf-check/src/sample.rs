@@ -27,8 +27,8 @@ const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
 const STEEPEST: (f64, usize) = (0.98, 2000);
 /// What a LiDAR sees nearer than this may be its own vehicle, m.
 const VEHICLE: f64 = 3.0;
-/// Points are put to the middle of a turn, from so much before and after at most, s: LiDARs turn ten times a second.
-const HALF_TURN_S: f64 = 0.05;
+/// Points are put to one moment of a turn, from so much before or after at most, s: LiDARs turn ten times a second.
+const TURN_S: f64 = 0.1;
 /// Points kept to be sought in images.
 const SEEN: usize = 6000;
 /// Obstacles kept to be sought in another scan.
@@ -83,8 +83,8 @@ pub(crate) struct LidarLook {
     /// come down to where obstacles begin.
     blind: (Point, f64),
     /// How steeply its points lie below it at least, but for some odd ones, where they are no returns from the vehicle
-    /// itself, whose directions are off: a slope. A point that was put to the middle of the turn lies nearer than it
-    /// was seen by as much as the vehicle drove meanwhile. None where nothing came back.
+    /// itself, whose directions are off: a slope. A point that was put to one moment of the turn may lie nearer
+    /// than it was seen by as much as the vehicle drove meanwhile. None where nothing came back.
     pub(crate) steepest: Option<f64>,
     /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
@@ -296,7 +296,7 @@ impl LidarLook {
             true => (depth_edges(&points, &mount, stands), every_so_many(&points, SEEN)),
             false => (Vec::new(), Vec::new()),
         };
-        let moved = source.sequence().motion.twist(read.t_ns).0.norm() * HALF_TURN_S;
+        let moved = source.sequence().motion.twist(read.t_ns).0.norm() * TURN_S;
         let away: Vec<Point> = points.iter().filter(|p| (*p - lidar_at).norm() > VEHICLE).copied().collect();
         Self {
             lidar,

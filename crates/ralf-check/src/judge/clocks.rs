@@ -101,11 +101,11 @@ fn motion_is_late(case: &mut Case, late: &[(usize, ClockFigures)], offset_ms: f6
 }
 
 fn clear_or_dull(name: &str, figures: &ClockFigures) -> Verdict {
-    let braking = "braking or starting is needed";
     if figures.is_sharp && figures.offset_ms.abs() > SMALL_MS {
+        let ClockFigures { now, then, offset_ms, .. } = figures;
         let evidence = format!(
-            "speeds fit best when its times are moved by {:+.0} ms, and hardly worse as they are: {braking}",
-            figures.offset_ms
+            "speeds fit best when its times are moved by {offset_ms:+.0} ms, by too little to be doubted: {now:.2} m/s \
+             off as they are, {then:.2} m/s then"
         );
         return Verdict::cannot_judge(name, Question::Clock, evidence);
     }
@@ -116,7 +116,8 @@ fn clear_or_dull(name: &str, figures: &ClockFigures) -> Verdict {
         );
         return Verdict::good(name, Question::Clock, evidence);
     }
-    Verdict::cannot_judge(name, Question::Clock, format!("the speed changes too little: {braking}"))
+    let missing = "the speed changes too little: braking or starting is needed";
+    Verdict::cannot_judge(name, Question::Clock, missing)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::search::{Deviations, Open, likeliest};
 const SIGMAS: f64 = 3.0;
 /// And so many of those that are told: what one recording in twenty shows that is right is no reason to change it.
 const TOLD_SIGMAS: f64 = 2.0;
+
 /// How well a quantity is known in its unit, with what more measurements would not take away.
 pub(super) fn told(deviations: &Deviations, quantity: usize) -> f64 {
     let measured = deviations.chance[quantity].hypot(deviations.contradiction[quantity]).min(1.0);

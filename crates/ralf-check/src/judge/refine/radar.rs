@@ -5,7 +5,7 @@ use super::behind::{Behind, Way};
 use super::evidence::Evidence;
 use super::proposal::{proposed, told};
 use super::quantity::Values;
-use super::search::{Open, deviations, likeliest, uphill};
+use super::search::{Open, deviations, likeliest};
 use super::{Refinement, as_found, common, is_alike_besides};
 use crate::change::SensorChange;
 use crate::doppler::clock;
@@ -44,15 +44,17 @@ impl<'a> Radar<'a> {
         Self { alone: Refinement { only_of, ..as_found(name, base) }, found }
     }
 
-    /// Its corrections by how far behind things it hears them.
+    /// Its corrections by how far behind things it hears them, where the LiDARs tell its place: of one that range rates
+    /// alone can judge, few detections lie on what LiDARs see, and by chance.
     pub(super) fn way(&self) -> Option<&Way> {
-        self.found.as_ref().map(|found| &found.way)
+        let told = |found: &&Found| found.open[1] || found.open[2];
+        self.found.as_ref().filter(told).map(|found| &found.way)
     }
 
     pub(super) fn refined(self, behind: Behind) -> Refinement {
         let Some(Found { drives, open, way }) = self.found else { return self.alone };
         let evidence = Evidence::of(&drives, self.alone.change, behind.metres);
-        let values = uphill(&evidence, way.at(behind.metres), open);
+        let values = likeliest(&evidence, &way.at(behind.metres), open);
         let (open, values) = told_along(&evidence, values, open);
         let deviations = deviations(&evidence, &values, open, &way.by_deviation(behind));
         Refinement {
