@@ -11,7 +11,7 @@ use ralf_data::read::inspection::held_motion;
 use ralf_data::read::ros::Topics;
 use ralf_data::read::{Incomplete, Lost};
 use ralf_data::result::LabelledRun;
-use ralf_data::{Recording, SequenceReader, Settings, open_selected};
+use ralf_data::{DataError, Recording, SequenceReader, Settings, open_selected};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -95,6 +95,13 @@ fn copied(recording: Recording) -> Recording {
         missing.iter().map(|reader| Incomplete { name: reader.sequence().name.clone(), lost: Lost::Radars }),
     );
     Recording { sequences, incomplete, ..recording }
+}
+
+/// A recording as it is, of which what is left out is told.
+pub(crate) fn open_and_tell(dataset: &Path) -> Result<Recording, DataError> {
+    let recording = ralf_data::open(dataset, None)?;
+    tell_left_out(&recording);
+    Ok(recording)
 }
 
 /// Says which sequences were left out and why: what was refused one by one, what is missing in one line for each

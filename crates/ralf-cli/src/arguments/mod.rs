@@ -8,7 +8,7 @@ mod settings;
 mod stored;
 
 pub(crate) use changed::ChangedArgs;
-pub(crate) use dataset::{DatasetArgs, tell_held_motion, tell_left_out, the_only};
+pub(crate) use dataset::{DatasetArgs, open_and_tell, tell_held_motion, tell_left_out, the_only};
 pub(crate) use method::MethodArgs;
 pub(crate) use output::{check_editable, check_model, check_output, check_page};
 pub(crate) use settings::{SettingsArgs, threads};

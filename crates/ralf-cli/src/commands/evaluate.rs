@@ -6,7 +6,7 @@ mod progress;
 mod queue;
 mod table;
 
-use crate::arguments::ChangedArgs;
+use crate::arguments::{ChangedArgs, open_and_tell};
 use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::say;
@@ -69,8 +69,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
     }
     match (&args.truth, &args.agreement) {
         (Some(dataset), Some(other)) => {
-            let recording =
-                recording_of(args, dataset)?.map_or_else(|| ralf_data::open(dataset, None), Ok)?;
+            let recording = recording_of(args, dataset)?.map_or_else(|| open_and_tell(dataset), Ok)?;
             agreement::run(&recording, [&args.out, other], args.json)
         }
         (Some(dataset), None) => compare(args, dataset),

@@ -147,8 +147,8 @@ impl LabelArgs {
         Ok(recording)
     }
 
-    /// Refuses a place that can't take the results. Labelling asks whose labels are there by itself, unless something
-    /// that takes long comes before it.
+    /// Refuses a place that can't take the results. Labelling asks whose labels are there by itself; here only
+    /// where something that takes long comes before it.
     fn refuse_place(&self, run: &LabelRun, stages: &Stages) -> anyhow::Result<()> {
         check_output_folder(&run.recording.path, &self.output)?;
         #[cfg(feature = "depth")]

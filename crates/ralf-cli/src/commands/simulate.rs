@@ -2,7 +2,7 @@
 
 pub(super) mod compare;
 
-use crate::arguments::{check_page, threads};
+use crate::arguments::{check_page, open_and_tell, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::sequences::{IsThere, write_missing};
 use anyhow::Context;
@@ -161,10 +161,10 @@ impl SimulateArgs {
             check_page("--output", page, &read_only)?;
         }
         let told = Told { page: self.output.as_deref(), json: self.json };
-        let recording = ralf_data::open(real, None)?;
+        let recording = open_and_tell(real)?;
         let real = Named::opened(&recording);
         if let Some(other) = &self.with {
-            let other = ralf_data::open(other, None)?;
+            let other = open_and_tell(other)?;
             compare(&real, &Named::opened(&other), threads(self.jobs), &told)?;
             return Ok(Outcome::Done);
         }

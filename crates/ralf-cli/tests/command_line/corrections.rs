@@ -200,6 +200,11 @@ fn work_is_dealt_once_and_what_people_did_is_told() {
     ralf(["evaluate", "nowhere", "--progress", "--json"]).exits(1).says(["nowhere: expected corrections"]);
     let told = ["run.json: expected the record of a finished `ralf label`"];
     ralf(["evaluate", &dataset.path, "--progress"]).exits(1).prints_nothing().ends_with_error(told);
+    let begun = dataset.beside("begun");
+    let kept = format!("{begun}/.ralf-unfinished/0123");
+    fs::create_dir_all(&kept).unwrap();
+    fs::write(format!("{kept}/inputs.json"), "").unwrap();
+    assert_eq!(ralf(["evaluate", &begun, "--progress", "--json"]).exits(0).json(), json!([]));
     say(&dataset.out, 9, &[1, 99, 10]);
     store(&dataset.out).undo("00", &who()).unwrap();
     let second = Path::new(&dataset.out).join("second");

@@ -191,6 +191,9 @@ fn a_damaged_sequence_is_in_nobodys_way_who_asks_for_another() {
     let whole = dataset.beside("whole");
     ralf(["label", &dataset.path, "-o", &whole]).exits(3).says(["left out: 01: ", &sensors]);
     assert!(without_timings(&whole) == without_timings(&dataset.out));
+    // Whoever opens a recording without labelling it tells of it, too.
+    let compare = ["simulate", "--compare", &dataset.path, "--with", &dataset.path, "--json"];
+    ralf(compare).exits(3).says(["left out: 01: ", &sensors]);
 }
 
 #[test]

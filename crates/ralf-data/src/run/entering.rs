@@ -21,7 +21,8 @@ impl LabelRun<'_> {
     pub fn refuse_other_recording(&self, observer: &dyn Observer) -> Result<(), DataError> {
         let (run, place) = (self.record(), &self.recording.path);
         let told = Told::read(self.out, &run)?;
-        if !told.holds_others(place) {
+        let names = self.recording.sequences.iter().map(|reader| reader.sequence().name.as_str());
+        if !told.may_lose_others(place, &names.collect()) {
             return Ok(());
         }
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), &[], self.jobs, observer)?;

@@ -60,10 +60,12 @@ impl Told {
         refuse(&self.labelled(), recording, asked)
     }
 
-    /// Whether there are labels of a recording that lies elsewhere.
-    pub(super) fn holds_others(&self, recording: &Path) -> bool {
+    /// Whether labels of a recording that lies elsewhere may go: those of its names, and those that don't stay.
+    pub(super) fn may_lose_others(&self, recording: &Path, names: &BTreeSet<&str>) -> bool {
         let place = place_of(recording);
-        self.labelled().iter().any(|known| !known.recording.is_empty() && known.recording != place)
+        let may_go = |known: &Labelled| !known.stays || names.contains(known.name);
+        let is_others = |known: &Labelled| !known.recording.is_empty() && known.recording != place;
+        self.labelled().iter().any(|known| is_others(known) && may_go(known))
     }
 
     fn labelled(&self) -> Vec<Labelled<'_>> {

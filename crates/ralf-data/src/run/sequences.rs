@@ -5,8 +5,7 @@
 
 use super::checks::check_one;
 use super::inputs::Identity;
-use super::kept::Finished;
-use super::kept::Origin;
+use super::kept::{Finished, Origin};
 use super::output_folder::OutputFolder;
 use super::workers::{Labelling, timed};
 use super::workspace::Workspace;

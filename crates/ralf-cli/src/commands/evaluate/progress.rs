@@ -4,7 +4,7 @@ use crate::outcome::Outcome;
 use crate::text::{aligned, grouped, print};
 use anyhow::bail;
 use ralf_data::Corrections;
-use ralf_data::result::LabelledRun;
+use ralf_data::result::{LabelledRun, is_under_way};
 use ralf_data::team::Worked;
 use serde_json::Value;
 use std::path::Path;
@@ -18,8 +18,8 @@ pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
     if worked.is_empty() && !out.is_dir() {
         bail!("{}: expected corrections, found none", out.display());
     }
-    // That nobody has done anything yet is an answer of labels, and of corrections that were begun.
-    if worked.is_empty() && Corrections::check_there(out).is_err() {
+    // That nobody has done anything yet is an answer of labels, begun or finished, and of corrections that were begun.
+    if worked.is_empty() && Corrections::check_there(out).is_err() && !is_under_way(out)? {
         LabelledRun::open(out)?;
     }
     let page: Value = worked.iter().map(Worked::json).collect();

@@ -30,7 +30,7 @@ pub(crate) const NAME: &str = "ralf";
 /// Opens a dataset of the own layout, with every check that needs no measurement; where names are given, those
 /// sequences.
 ///
-/// Errors: no sequence. Of one that is named, or if all are such: what its checks refuse.
+/// Errors: no sequence; what the checks refuse of a sequence that is named, or of the first where none is left.
 pub(crate) fn open(dataset: &Path, names: &[String]) -> Result<Recording, DataError> {
     let folder = dataset.join(SEQUENCES);
     refuse_results(dataset)?;
