@@ -14,15 +14,16 @@ pub(super) struct Frame {
     pub(super) stem: String,
 }
 
-/// The frames of a folder of `.bin` files, ascending; at least one.
+/// The frames of a folder of `.bin` files, ascending; at least one. Hidden files are none: macOS leaves `._00549.bin`
+/// beside `00549.bin`.
 pub(super) fn frames(folder: &Path) -> Result<Vec<Frame>, DataError> {
     let mut frames = Vec::new();
     for entry in files::entries(folder, "a folder of frames, NNNNN.bin")? {
         let file = entry.map_err(DataError::io(folder))?.path();
-        if file.extension().is_none_or(|extension| extension != "bin") {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if file.extension().is_none_or(|extension| extension != "bin") || stem.starts_with('.') {
             continue;
         }
-        let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let number = number_of(&file).and_then(|number| u32::try_from(number).ok());
         let number =
             number.ok_or_else(|| DataError::content(&file, "file name", "a frame's number", &stem))?;

@@ -53,6 +53,7 @@ impl DataSet {
             );
         }
         set.write("radar/training/velodyne/notes.txt", b"not a frame");
+        set.write("radar/training/velodyne/._00005.bin", b"what macOS leaves beside a file");
         let images = set.path("radar/training/image_2");
         fs::create_dir_all(&images).unwrap();
         image::RgbImage::new(8, 4).save(images.join("00005.jpg")).unwrap();
