@@ -20,7 +20,7 @@ mod source;
 use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::opened::Opened;
-use crate::read::scene_tables::{self, Scenes, lookup};
+use crate::read::scene_tables::{self, Place, Scenes, lookup};
 use crate::read::{Recording, truckscenes};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -30,12 +30,13 @@ pub(crate) const NAME: &str = "nuscenes";
 /// The table that tells when and where scenes were recorded.
 const LOG: &str = "log.json";
 
-/// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`; where names are given, those scenes.
+/// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`, or at the folder `v1.0-*` beside them;
+/// where names are given, those scenes.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
 /// changes inside a scene. Of a scene that is named, or if all are such: no ego poses, a damaged CAN bus.
 pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
-    let version = scene_tables::only_folder(path, is_version, "v1.0-*")?;
+    let Place { root, version } = scene_tables::place(path, is_version, "v1.0-*")?;
     if version.join(truckscenes::TELLING).is_file() {
         let found = format!("{}, of MAN TruckScenes (--format {})", truckscenes::TELLING, truckscenes::NAME);
         return Err(DataError::content(&version, "tables", "those of nuScenes alone", found));
@@ -45,7 +46,7 @@ pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError
     tables.sort();
     let mut folders = Folders::default();
     let opened = Opened::of(scenes(&version)?.finish(), names, |_, record| {
-        source::scene(path, &version, &tables, record, &mut folders)
+        source::scene(&root, &version, &tables, record, &mut folders)
     })?;
     Ok(opened.recording(path, NAME, Vec::new()))
 }

@@ -13,7 +13,7 @@ pub(crate) use join::{SceneRecord, Scenes, lookup, read_scenes};
 pub(crate) use measurements::{Measurements, TableOrigin};
 pub(crate) use raw::{EgoPoseRow, Token, for_each_row, nanoseconds};
 pub(crate) use rig::Models;
-pub(crate) use version::{is_one, only_folder};
+pub(crate) use version::{Place, is_one, place};
 
 /// The tables that all of these formats have.
 pub(crate) const TABLES: [&str; 6] = [

@@ -1,7 +1,7 @@
 //! What the tests of every format of such tables share, and what holds of each of them.
 
 use crate::error::DataError;
-use crate::read::SequenceReader;
+use crate::read::{self, SequenceReader};
 use crate::testing;
 use serde_json::{Value, json};
 use std::fs;
@@ -63,4 +63,26 @@ pub(crate) fn check_empty_scene<T: Tables>() {
     set.edit("sample", Vec::clear);
     set.edit("sample_data", Vec::clear);
     set.refused(&[words]);
+}
+
+/// Where several versions lie beside each other, one of them is the recording.
+pub(crate) fn check_versions<T: Tables>(other: &str) {
+    let set = T::new();
+    let text = |path: &Path| {
+        let recording = read::open(path, None).unwrap();
+        let reader = testing::only(&recording);
+        format!("{} {:?} {:?}", recording.format, reader.sequence(), reader.radar_scan(0, 0).unwrap())
+    };
+    let alone = text(set.path());
+    let [version, beside] = [T::VERSION, other].map(|name| set.path().join(name));
+    fs::create_dir(&beside).unwrap();
+    for entry in fs::read_dir(&version).unwrap() {
+        let file = entry.unwrap().path();
+        fs::copy(&file, beside.join(file.file_name().unwrap())).unwrap();
+    }
+    let one = if version < beside { &version } else { &beside };
+    let named = format!("or the path of one, such as {}, found", one.display());
+    set.refused(&["exactly one version folder", &named, T::VERSION, other]);
+    assert_eq!(text(&version), alone);
+    assert_eq!(text(&beside), alone);
 }

@@ -19,7 +19,7 @@ use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::Recording;
 use crate::read::opened::Opened;
-use crate::read::scene_tables;
+use crate::read::scene_tables::{self, Place};
 use std::path::{Path, PathBuf};
 
 /// The format's name.
@@ -27,13 +27,13 @@ pub(crate) const NAME: &str = "truckscenes";
 /// The table that nuScenes has not.
 pub(crate) const TELLING: &str = "ego_motion_chassis.json";
 
-/// Opens the data set at the folder that holds `v1.2-*` (or an earlier version), `samples` and maybe `sweeps`; where
-/// names are given, those scenes.
+/// Opens the data set at the folder that holds `v1.2-*` (or an earlier version), `samples` and maybe `sweeps`, or at
+/// the folder `v1.2-*` beside these; where names are given, those scenes.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
 /// changes inside a scene. Of a scene that is named, or if all are such: no poses.
 pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError> {
-    let version = scene_tables::only_folder(path, is_version, "vN.N-mini, -trainval or -test")?;
+    let Place { root, version } = scene_tables::place(path, is_version, "vN.N-mini, -trainval or -test")?;
     let mut scenes = scene_tables::read_scenes(&version, |description, _| Ok(description.to_owned()))?;
     let motion = motion::Motion::read(&version, &mut scenes.records)?;
     let mut tables: Vec<PathBuf> = scene_tables::TABLES.iter().map(|name| version.join(name)).collect();
@@ -43,7 +43,7 @@ pub(crate) fn open(path: &Path, names: &[String]) -> Result<Recording, DataError
     let mut folders = Folders::default();
     let opened = Opened::of(scenes.finish(), names, |name, record| {
         let odometry = odometry.remove(name).unwrap_or_default();
-        source::scene(path, &version, &tables, record, odometry, &mut folders)
+        source::scene(&root, &version, &tables, record, odometry, &mut folders)
     })?;
     Ok(opened.recording(path, NAME, Vec::new()))
 }

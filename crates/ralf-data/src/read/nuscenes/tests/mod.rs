@@ -7,7 +7,7 @@ mod refusals;
 use super::*;
 use crate::read::SequenceReader;
 use crate::read::scene_tables::TableOrigin;
-use crate::read::scene_tables::testing::{Tables, check_empty_scene, check_filenames};
+use crate::read::scene_tables::testing::{Tables, check_empty_scene, check_filenames, check_versions};
 use crate::testing;
 use ralf::sensors::Intrinsics;
 use ralf::space::Point;

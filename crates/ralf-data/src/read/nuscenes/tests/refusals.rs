@@ -156,6 +156,11 @@ fn a_filename_that_leads_out_of_the_data_set_is_refused() {
 }
 
 #[test]
+fn of_several_versions_one_is_opened_by_its_folder() {
+    check_versions::<DataSet>("v1.0-mini");
+}
+
+#[test]
 fn cut_and_missing_tables_are_named() {
     let set = DataSet::new();
     set.write(&format!("{VERSION}/ego_pose.json"), b"[{\"token\": \"a\", ");

@@ -84,6 +84,11 @@ fn a_filename_that_leads_out_of_the_data_set_is_refused() {
 }
 
 #[test]
+fn of_several_versions_one_is_opened_by_its_folder() {
+    check_versions::<DataSet>("v1.2-trainval");
+}
+
+#[test]
 fn a_scene_without_measurements_costs_the_others_nothing() {
     check_empty_scene::<DataSet>();
 }
