@@ -3,7 +3,7 @@
 use crate::disk::files;
 use crate::disk::guarded::guarded;
 use crate::error::DataError;
-use parquet::basic::{Compression, Type as Physical};
+use parquet::basic::{Compression, ConvertedType, LogicalType, TimeUnit, Type as Physical};
 use parquet::column::reader::{ColumnReaderImpl, get_typed_column_reader};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
@@ -67,6 +67,34 @@ impl ParquetTable {
             other => return Err(self.error(column, "whole numbers", other.to_string())),
         };
         self.all(column, "a value in every row", values)
+    }
+
+    /// A column of times in us, of which none is absent: whole numbers are us, unless the column says another unit. Of
+    /// finer ones what is below 1 us is left out.
+    pub(crate) fn microseconds(&self, column: &str) -> Result<Vec<i64>, DataError> {
+        let times = self.integers(column)?;
+        match self.unit(column) {
+            TimeUnit::MICROS => Ok(times),
+            TimeUnit::NANOS => Ok(times.into_iter().map(|time| time.div_euclid(1000)).collect()),
+            TimeUnit::MILLIS => {
+                let times = times.into_iter().map(|time| time.checked_mul(1000)).collect();
+                self.all(column, "a time in ms of 64 bits of us", times)
+            }
+        }
+    }
+
+    /// The unit that a column says its times are in; us where it says none.
+    fn unit(&self, column: &str) -> TimeUnit {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        let Some(found) = self.place(column).map(|place| schema.column(place)) else {
+            return TimeUnit::MICROS;
+        };
+        match (found.logical_type_ref(), found.converted_type()) {
+            (Some(LogicalType::Timestamp(found)), _) => found.unit,
+            (Some(LogicalType::Time(found)), _) => found.unit,
+            (_, ConvertedType::TIMESTAMP_MILLIS | ConvertedType::TIME_MILLIS) => TimeUnit::MILLIS,
+            _ => TimeUnit::MICROS,
+        }
     }
 
     /// A column of texts, of which none is absent.

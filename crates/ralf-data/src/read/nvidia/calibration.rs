@@ -82,7 +82,7 @@ fn poses(file: &Path, table: &ParquetTable) -> Result<Vec<Transform>, DataError>
 /// The vehicle's poses in the frame that it has at the clip's begin.
 pub(super) fn motion(file: &Path) -> Result<EgoMotion, DataError> {
     let table = ParquetTable::open(file, MOST_POSES)?;
-    let times = table.integers("timestamp")?;
+    let times = table.microseconds("timestamp")?;
     let mut samples: Vec<PoseSample> = Vec::with_capacity(times.len());
     for (row, (time, odom_from_vehicle)) in times.into_iter().zip(poses(file, &table)?).enumerate() {
         let t_ns = nanoseconds(file, row, time)?;

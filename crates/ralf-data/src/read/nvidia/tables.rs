@@ -36,7 +36,7 @@ pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
     let table = ParquetTable::open(file, MOST_DETECTIONS)?;
     // What pandas calls an index that it has no name for.
     let index = if table.has("scan_index") { "scan_index" } else { "__index_level_0__" };
-    let (indices, times) = (table.integers(index)?, table.integers("timestamp")?);
+    let (indices, times) = (table.integers(index)?, table.microseconds("timestamp")?);
     let of_rows = times.iter().enumerate().map(|(row, time)| nanoseconds(file, row, *time));
     let scans =
         of_one_time(file, scans(indices.into_iter(), &of_rows.collect::<Result<Vec<_>, _>>()?), &times)?;

@@ -7,7 +7,7 @@ use super::recording::{
 use crate::read::Recording;
 use crate::read::nvidia::{open, recognises};
 use crate::testing::only;
-use parquet::basic::{Compression, GzipLevel};
+use parquet::basic::{Compression, GzipLevel, TimeUnit};
 use ralf::sensors::Elevation;
 use ralf::space::Point;
 use std::fs;
@@ -158,7 +158,7 @@ fn rows_of_a_scan_need_not_lie_together() {
     for (_, values) in &mut rows {
         match values {
             Values::Byte(values) => *values = picked(values, &order),
-            Values::Long(values) => *values = picked(values, &order),
+            Values::Long(values) | Values::Time(_, values) => *values = picked(values, &order),
             Values::Float(values) => *values = picked(values, &order),
             Values::Double(values) => *values = picked(values, &order),
             Values::Optional(values) => *values = picked(values, &order),
@@ -167,4 +167,29 @@ fn rows_of_a_scan_need_not_lie_together() {
     }
     write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
     assert_eq!(text(&open(folder.path(), &[]).unwrap()), text(&recording));
+}
+
+#[test]
+fn times_have_the_unit_that_their_column_says() {
+    let (folder, recording) = unzipped();
+    let expected = text(&recording);
+    let radar_file = folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet"));
+    let motion_file = folder.path().join(format!("labels/egomotion/{CLIP}.egomotion.parquet"));
+    let units = [
+        (TimeUnit::MILLIS, Box::new(|us: i64| us / 1000) as Box<dyn Fn(i64) -> i64>),
+        (TimeUnit::MICROS, Box::new(|us| us)),
+        (TimeUnit::NANOS, Box::new(|us| us * 1000)),
+    ];
+    for (unit, of) in units {
+        for (file, columns) in [(&radar_file, radar(true)), (&motion_file, egomotion())] {
+            let in_unit = |(name, values)| match (name, values) {
+                ("timestamp", Values::Long(times)) => {
+                    (name, Values::Time(unit, times.into_iter().map(&of).collect()))
+                }
+                other => other,
+            };
+            write(file, &columns.into_iter().map(in_unit).collect());
+        }
+        assert_eq!(text(&open(folder.path(), &[]).unwrap()), expected, "{unit:?}");
+    }
 }

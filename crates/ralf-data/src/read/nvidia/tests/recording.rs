@@ -1,6 +1,6 @@
 //! Clips as the data set's tables have them.
 
-use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, LogicalType, Repetition, TimeUnit, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
@@ -18,6 +18,7 @@ pub(crate) const REAR: &str = "radar_rear_left_srr_0";
 pub(crate) enum Values {
     Byte(Vec<u8>),
     Long(Vec<i64>),
+    Time(TimeUnit, Vec<i64>),
     Float(Vec<f32>),
     Double(Vec<f64>),
     Optional(Vec<Option<f64>>),
@@ -134,6 +135,9 @@ fn field(name: &str, values: &Values) -> Type {
     let (physical, logical, repetition) = match values {
         Values::Byte(_) => (Physical::INT32, Some(LogicalType::integer(8, false)), Repetition::OPTIONAL),
         Values::Long(_) => (Physical::INT64, None, Repetition::OPTIONAL),
+        Values::Time(unit, _) => {
+            (Physical::INT64, Some(LogicalType::timestamp(false, *unit)), Repetition::OPTIONAL)
+        }
         Values::Float(_) => (Physical::FLOAT, None, Repetition::OPTIONAL),
         Values::Double(_) => (Physical::DOUBLE, None, Repetition::REQUIRED),
         Values::Optional(_) => (Physical::DOUBLE, None, Repetition::OPTIONAL),
@@ -154,7 +158,7 @@ fn write_column(group: &mut SerializedRowGroupWriter<File>, values: &Values) {
             let wide: Vec<i32> = values.iter().map(|value| i32::from(*value)).collect();
             column.typed::<Int32Type>().write_batch(&wide, there(wide.len()).as_deref(), None)
         }
-        Values::Long(values) => {
+        Values::Long(values) | Values::Time(_, values) => {
             column.typed::<Int64Type>().write_batch(values, there(values.len()).as_deref(), None)
         }
         Values::Float(values) => {
