@@ -81,7 +81,8 @@ pub(super) fn read(
 
 fn rows(file: &Path) -> Result<Vec<Row>, DataError> {
     let text = files::read_text(file, Kind::Table)?;
-    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+    // A byte order mark, as Windows' editors write it.
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let filled = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     filled.map(|(line, text)| row(file, line, text)).collect()
 }
@@ -221,6 +222,8 @@ mod tests {
         let kitti = parsed("0 -1 0 3 1 0 0 0 0 0 1 0\n").unwrap();
         assert_eq!(tum[0].t_ns, Some(1_600_000_000_250_000_000));
         assert_eq!((tum[0].line, kitti[0].t_ns), (2, None));
+        let marked = parsed("\u{feff}12 3 0 0 0 0 0 1\n").unwrap();
+        assert_eq!((marked[0].line, marked[0].t_ns), (1, Some(12_000_000_000)));
         assert!((tum[0].pose.to_homogeneous() - kitti[0].pose.to_homogeneous()).abs().max() < 1e-12);
     }
 
