@@ -3,7 +3,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::ros::{Topics, check_topics};
-use crate::read::{MotionSettings, Recording, SensorCorrection, corrected};
+use crate::read::{MotionSettings, Recording, SensorCorrection, corrected, idle};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -58,9 +58,14 @@ impl Settings {
     /// A recording as the tables `sensors`, `corrections` and `motion` have it. Where it knows no motion, that is taken
     /// from the radars' range rates, else from a LiDAR's scans. Refused: names that no sensor has, files that hold no
     /// poses, and one such file for several sequences. A sequence whose motion nobody knows is refused if it was named,
-    /// or if there is no other; else it is [left out](Recording::incomplete).
+    /// or if there is no other; else it is [left out](Recording::incomplete). Refused as well: what changes nothing of
+    /// the recording (`trajectory_frame` and `trajectory_order` without a trajectory, `tick_ms` without `period_ms`,
+    /// `yaw_rate_factor` of poses).
     pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
-        self.correct_labelled(recording, |_| true)
+        idle::refuse_alone(&recording.path, &self.corrections, &self.motion)?;
+        let corrected = self.correct_labelled(recording, |_| true)?;
+        idle::refuse_yaw_rate_factor(&corrected, &self.motion)?;
+        Ok(corrected)
     }
 
     /// The same with a recording of which these sequences were labelled with these settings. A trajectory was theirs,

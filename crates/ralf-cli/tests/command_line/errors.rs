@@ -1,6 +1,6 @@
 //! Errors: the last line tells what is wrong, in the words of the people who read it.
 
-use crate::support::{Dataset, Shape, ralf};
+use crate::support::{Dataset, Ran, Shape, program, ralf};
 use std::fs;
 
 fn labelled() -> Dataset {
@@ -215,6 +215,34 @@ fn a_correction_that_changes_nothing_of_such_a_sensor_is_refused() {
     }
     label("corrections.lidar_top.position_factor=1.01").exits(0);
     label("corrections.lidar_top.mirror_y=true").exits(0);
+}
+
+#[test]
+fn settings_that_change_nothing_of_a_recording_are_refused() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    let [poses, topics] = ["poses.txt", "topics.toml"].map(|name| dataset.beside(name));
+    fs::write(&poses, "1 0 0 0 0 1 0 0 0 0 1 0\n".repeat(3)).unwrap();
+    fs::write(&topics, "[topics.odom]\ntopic = \"/odom\"\nkind = \"odometry\"\n").unwrap();
+    let check =
+        |more: &[&str]| Ran::of(&program().args(["check", &dataset.path]).args(more).output().unwrap());
+    let no_trajectory =
+        ": expected a trajectory that it tells of (--trajectory, motion.trajectory), found none";
+    for (set, told) in [
+        ("motion.trajectory_frame=lidar_tpo", no_trajectory),
+        ("motion.trajectory_order=lidar_top", no_trajectory),
+        ("corrections.lidar_top.tick_ms=7", ": expected a period_ms above 0 beside it, found none"),
+    ] {
+        let key = set.split('=').next().unwrap();
+        check(&["--set", set]).exits(1).ends_with_error([format!("{}: {key}{told}", dataset.path).as_str()]);
+    }
+    let yaw_rate = ["--trajectory", &poses, "--set", "motion.yaw_rate_factor=2"];
+    let told = "motion.yaw_rate_factor: expected a motion with yaw rates, found poses alone";
+    check(&yaw_rate).exits(1).ends_with_error([told]);
+    let told = "--topics: ";
+    let found = "expected a recording of ROS, found the format ralf";
+    check(&["--topics", &topics]).exits(1).ends_with_error([told, found]);
+    check(&["--set", "motion.trajectory_frame=vehicle", "--set", "corrections.lidar_top.period_ms=100"])
+        .exits(0);
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod aimotive;
 mod corrected;
 mod corrections;
 mod file_sequence;
+pub(crate) mod idle;
 mod incomplete;
 pub mod inspection;
 mod instances;
