@@ -120,9 +120,12 @@ fn nothing_is_written_among_the_sequences_of_a_recording() {
     let before = tree(&other.path);
     for place in ["sequences", "sequences/05", "sequences/00/radar_front/out"] {
         let place = format!("{}/{place}", other.path);
+        let file = format!("{place}/copy.mcap");
         for command in [
             &["label", &dataset.path, "-o", &place][..],
             &["convert", &dataset.path, "-o", &place],
+            &["convert", &dataset.path, "-o", &file],
+            &["convert", &other.path, "-o", &file],
             &["simulate", "--preset", "tiny", "--scans", "1", "-o", &place],
         ] {
             let refused = run(command).exits(1).prints_nothing();

@@ -6,6 +6,7 @@ use crate::disk::alone::alone;
 use crate::disk::files::{self, beside};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::read::outside::refuse_among_sequences;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::WriterLock;
 use crate::write::export::options::Sensors;
@@ -30,14 +31,15 @@ pub struct RosWritten {
 /// all. `progress` is told how many measurements are done. `docs/export.md` tells what is left out.
 ///
 /// # Errors
-/// A file that is there already, a measurement that can't be read, times that ROS doesn't know, what the system
-/// refuses.
+/// A file that is there already, a place among the sequences of a recording in the own layout, a measurement that can't
+/// be read, times that ROS doesn't know, what the system refuses.
 pub fn write_ros(
     reader: &dyn SequenceReader,
     file: &Path,
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<RosWritten, DataError> {
+    refuse_among_sequences(file)?;
     check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
