@@ -49,13 +49,19 @@ pub(super) fn drive(folder: &Path) -> Result<FileSequence<Drive>, DataError> {
     let further = [calibration_file].into_iter().chain(pose_file).chain(told.boxes).collect();
     let sequence = Sequence {
         name: name_of(folder),
-        title: format!("aiMotive, {}", folder.parent().map(name_of).unwrap_or_default()),
+        title: title(folder),
         rig,
         times,
         motion,
         depth_output: DepthOutput::default(),
     };
     Ok(FileSequence { sequence, files, further, warnings, format: Drive })
+}
+
+/// Tells the folder that a sequence lies in, whichever way its path was typed.
+fn title(folder: &Path) -> String {
+    let above = files::whole(folder).parent().map(name_of).filter(|name| !name.is_empty());
+    above.map_or_else(|| "aiMotive".to_owned(), |name| format!("aiMotive, {name}"))
 }
 
 fn name_of(folder: &Path) -> String {
@@ -192,5 +198,22 @@ impl FileFormat for Drive {
 
     fn lidar_scan(&self, file: &Path, lidar: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {
         rolling_scan(file, lidar, t_ns)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::title;
+    use std::path::Path;
+
+    #[test]
+    fn a_title_tells_where_a_sequence_lies_if_anywhere() {
+        let here = std::env::current_dir().unwrap();
+        let here = here.file_name().unwrap().to_str().unwrap();
+        let titles = ["highway/20210401", "20210401", "/20210401"].map(|folder| title(Path::new(folder)));
+        assert_eq!(
+            titles,
+            ["aiMotive, highway".to_owned(), format!("aiMotive, {here}"), "aiMotive".to_owned()]
+        );
     }
 }
