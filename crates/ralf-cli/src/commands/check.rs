@@ -43,8 +43,8 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     strict: bool,
     /// Write corrections as settings that `ralf label --config` takes; nothing is corrected before. To refine
-    /// them takes much longer than the check alone: 105 s of processor time in place of 8 for six sequences with five
-    /// radars. A file that was edited is not replaced
+    /// them takes many times as long as the check alone, minutes for several drives. A file that was edited is not
+    /// replaced
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     /// Draw velocities and overlaps of each radar (PNG)
