@@ -103,13 +103,20 @@ impl Columns {
         self.values.get(place).map(Vec::as_slice)
     }
 
-    /// The part of a velocity along each ray. Without its third component nothing is known but what lies in the plane.
+    /// The part of a velocity along each ray. Without its third component nothing is known but what lies in the plane:
+    /// drivers that don't know it leave it out, at NaN or, in the whole scan, at 0.
     fn along_rays(&self, [vx, vy, vz]: [&str; 3], elevation: Elevation) -> Option<Vec<f32>> {
         let [x, y, vx, vy] = [self.get("x")?, self.get("y")?, self.get(vx)?, self.get(vy)?];
-        Some(match (elevation, self.get("z"), self.get(vz)) {
-            (Elevation::Measured, Some(z), Some(vz)) => radial_3d([x, y, z], [vx, vy, vz]),
-            _ => radial(x, y, vx, vy),
-        })
+        let in_plane = radial(x, y, vx, vy);
+        let (Elevation::Measured, Some(z), Some(vz)) = (elevation, self.get("z"), self.get(vz)) else {
+            return Some(in_plane);
+        };
+        if vz.iter().all(|vz| *vz == 0.0 || !vz.is_finite()) {
+            return Some(in_plane);
+        }
+        let in_space = radial_3d([x, y, z], [vx, vy, vz]);
+        let known = |((vz, space), plane): ((&f32, f32), f32)| if vz.is_finite() { space } else { plane };
+        Some(vz.iter().zip(in_space).zip(in_plane).map(known).collect())
     }
 }
 

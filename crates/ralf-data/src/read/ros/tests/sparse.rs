@@ -376,28 +376,32 @@ fn a_transform_that_is_none_costs_those_alone_who_need_it() {
     );
 }
 
-/// A detection at (2, 3, 6), 7 m away, whose velocity is (7, 14, 21).
+/// Detections at (2, 3, 6), 7 m away, whose velocities are (7, 14) and what the third field holds.
 #[test]
 fn range_rates_lie_along_the_ray_that_is_measured() {
-    let doppler = |elevation: &str, third: &str| {
+    let doppler = |elevation: &str, third: &str, values: &[f32]| {
         let (_folder, path) = recording(|drive, to| {
             odometry(drive, to);
-            let mut cloud = drive.cloud(0, &[[2.0, 3.0, 6.0, 7.0, 14.0]], "vx");
+            let mut cloud = drive.cloud(0, &vec![[2.0, 3.0, 6.0, 7.0, 14.0]; values.len()], "vx");
             cloud.fields.push(PointField::new(third, 20, Datatype::Float32));
-            cloud.data.extend(21.0_f32.to_le_bytes());
-            (cloud.point_step, cloud.row_step) = (24, 24);
+            let rows = cloud.data.chunks(20).zip(values);
+            cloud.data = rows.flat_map(|(row, value)| [row, &value.to_le_bytes()].concat()).collect();
+            (cloud.point_step, cloud.row_step) = (24, 24 * cloud.width);
             write(to, "/front", [(0, cloud)]);
         });
         let table = without("roof").replace("'generic'", &format!("'generic', elevation = {elevation}"));
         let drive = open_file(&path, &table).unwrap();
         assert_eq!(drive.sequence().rig.radars[0].fields[6], "doppler");
-        drive.radar_scan(0, 0).unwrap().columns[6][0]
+        drive.radar_scan(0, 0).unwrap().columns[6].clone()
     };
-    assert_eq!(doppler("true", "vz"), 26.0);
-    let in_plane = 56.0 / 13.0_f32.sqrt();
-    for found in [doppler("false", "vz"), doppler("true", "other")] {
-        assert!((found - in_plane).abs() < 1e-5, "{found}");
-    }
+    assert_eq!(doppler("true", "vz", &[21.0, 0.0]), [26.0, 8.0]);
+    let in_plane = doppler("true", "other", &[21.0])[0];
+    assert!((in_plane - 56.0 / 13.0_f32.sqrt()).abs() < 1e-5, "{in_plane}");
+    assert_eq!(doppler("false", "vz", &[21.0]), [in_plane]);
+    // Drivers that don't know the third component leave it at NaN, or at 0 in the whole scan.
+    assert_eq!(doppler("true", "vz", &[21.0, f32::NAN, f32::INFINITY]), [26.0, in_plane, in_plane]);
+    assert_eq!(doppler("true", "vz", &[0.0, -0.0]), [in_plane; 2]);
+    assert_eq!(doppler("true", "vz", &[f32::NAN, 0.0]), [in_plane; 2]);
 }
 
 #[test]
