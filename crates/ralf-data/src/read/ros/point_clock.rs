@@ -126,15 +126,16 @@ impl Said {
     }
 
     /// How times are told, as most scans have it; of as many the shorter unit, for a short scan leads to a longer one.
-    /// The error is a sentence, of times in no unit.
+    /// The error is a sentence, of times in no unit, where more scans have such than any way to tell them.
     pub(super) fn clock(&self) -> Result<Option<PointClock>, String> {
         let votes = |clock: &PointClock| self.clocks.iter().filter(|other| *other == clock).count();
         let order = |a: &&PointClock, b: &&PointClock| {
             votes(a).cmp(&votes(b)).then_with(|| b.seconds.total_cmp(&a.seconds))
         };
-        match (self.clocks.iter().max_by(order), self.strange.first()) {
-            (None, Some(sentence)) => Err(sentence.clone()),
-            (clock, _) => Ok(clock.cloned()),
+        let clock = self.clocks.iter().max_by(order);
+        match self.strange.first() {
+            Some(sentence) if self.strange.len() > clock.map_or(0, votes) => Err(sentence.clone()),
+            _ => Ok(clock.cloned()),
         }
     }
 }
@@ -200,6 +201,25 @@ mod tests {
         assert_eq!(find("ring", &[0.0, 0.1]), Told::NoTimes);
         let Told::Strange(sentence) = find("time", &[1.0e9, 1.0e9 + 0.1]) else { panic!("a unit") };
         assert!(sentence.contains("`time` from 1000000000 to"), "{sentence}");
+    }
+
+    #[test]
+    fn scans_in_no_unit_have_a_vote() {
+        let vote = |strange: usize, counted: usize| {
+            let stray = (0..strange).map(|_| Told::Strange("strange".to_owned()));
+            let clock = PointClock { field: "t", unit: "s", seconds: 1.0, is_absolute: false };
+            let mut said = Said::default();
+            let told = stray.chain((0..counted).map(|_| Told::Clock(clock.clone())));
+            let enough: Vec<bool> = told.map(|told| said.hear(told)).collect();
+            assert_eq!(enough.last(), Some(&(strange + counted >= FIRST_SCANS)));
+            said.clock().map(|clock| clock.map(|clock| clock.unit))
+        };
+        for (strange, counted) in [(9, 1), (6, 4), (1, 0)] {
+            assert_eq!(vote(strange, counted), Err("strange".to_owned()), "{strange} to {counted}");
+        }
+        for (strange, counted) in [(5, 5), (1, 9), (1, 1), (0, 1)] {
+            assert_eq!(vote(strange, counted), Ok(Some("s")), "{strange} to {counted}");
+        }
     }
 
     #[test]

@@ -103,6 +103,22 @@ fn a_scan_that_is_cut_short_does_not_tell_the_unit_alone() {
     }
 }
 
+/// Seconds: most scans have a stray time, and one has none.
+#[test]
+fn a_scan_among_strange_ones_does_not_tell_the_unit_for_them() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        let times = |k: i64| if k == 4 { [0.0, 0.1] } else { [0.0, 1e10] };
+        write(to, "/roof", (1..8).map(|k| revolution(drive, 100 * k, &times(k))));
+    });
+    let drive = open_file(&path, &without("front")).unwrap();
+    let told = "roof: `time` from 0 to 10000000000 is a time of points in no known unit, and is not used";
+    assert_eq!(drive.warnings(), [told]);
+    for scan in 0..7 {
+        assert!(drive.lidar_scan(0, scan).unwrap().times.is_none());
+    }
+}
+
 #[test]
 fn times_that_never_differ_are_told_and_not_used() {
     let (_folder, path) = recording(|drive, to| {
