@@ -9,6 +9,9 @@ use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, tran
 
 /// A vehicle whose poses lie this far from the first has moved, m: those of a parked one wander less.
 const MOVED: f64 = 2.0;
+/// Messages without a pose are passed over where those before and after them that have one lie at most this far apart,
+/// ns: a straight line tells too little of a longer way.
+const BRIDGED_NS: i64 = 1_000_000_000;
 
 /// A topic of the motion: its settings, what it holds, and `vehicle_from_child` of its frame.
 struct Part<'a> {
@@ -81,7 +84,8 @@ fn part<'a>(
 }
 
 impl Part<'_> {
-    /// The poses; a warning counts the messages that have none, as of programs that have just begun.
+    /// The poses; a warning counts the messages that have none, as of programs that have just begun. Refused where a
+    /// part of the drive has none.
     fn poses(&self, messages: &Messages, warnings: &mut Vec<String>) -> Result<Vec<PoseSample>, DataError> {
         let child_from_vehicle = self.vehicle_from_child.inverse();
         let pose = |sample: &MotionSample| {
@@ -91,10 +95,13 @@ impl Part<'_> {
         let samples = &self.track.samples;
         let poses: Vec<PoseSample> = samples.iter().filter_map(pose).collect();
         let (topic, all, lost) = (&self.topic.topic, samples.len(), samples.len() - poses.len());
-        if let (true, Some(first)) = (poses.is_empty(), samples.first()) {
+        if let Some(first) = first_missing(samples) {
             let place = format!("{topic} at {} ns", first.t_ns);
-            let expected =
-                "a finite position and a unit quaternion (the kind twist takes the velocities alone)";
+            let seconds = BRIDGED_NS / 1_000_000_000;
+            let expected = format!(
+                "a finite position and a unit quaternion, from the first of them to the last at least every \
+                 {seconds} s (the kind twist takes the velocities alone)"
+            );
             return Err(DataError::content(messages.path(), place, expected, format!("{:?}", first.pose)));
         }
         if lost > 0 {
@@ -158,6 +165,24 @@ impl Part<'_> {
 /// The pose of a message, if it has one.
 fn fixed_from_child(sample: &MotionSample) -> Option<Transform> {
     transform_from_parts(sample.pose.position, sample.pose.orientation)
+}
+
+/// The first message without a pose that can't be passed over, in time order: of all where none has one, or of those
+/// between two poses that lie far apart.
+fn first_missing(samples: &[MotionSample]) -> Option<&MotionSample> {
+    let (mut before, mut missing) = (None, None);
+    for sample in samples {
+        if fixed_from_child(sample).is_none() {
+            missing = missing.or(Some(sample));
+            continue;
+        }
+        let is_far = |t_ns: i64| sample.t_ns.saturating_sub(t_ns) > BRIDGED_NS;
+        if missing.is_some() && before.is_some_and(is_far) {
+            return missing;
+        }
+        (before, missing) = (Some(sample.t_ns), None);
+    }
+    missing.filter(|_| before.is_none())
 }
 
 /// How far from the first the farthest pose lies, m.

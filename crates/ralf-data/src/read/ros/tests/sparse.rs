@@ -323,31 +323,41 @@ fn a_mounting_is_held_where_nothing_tells_of_it() {
     }
 }
 
-/// A program that has just begun has no pose yet.
+/// A program that has just begun has no pose yet, and one that loses its way has none for a while.
 #[test]
 fn odometry_without_a_pose_is_not_used() {
-    let opened = |nones: usize| {
+    let opened = |nones: std::ops::Range<i64>| {
         let (_folder, path) = recording(|drive, to| {
             write(to, "/front", [scan(drive, 0, &[0.5])]);
             let none = Pose { orientation: [0.0; 4], ..Pose::default() };
             let message = |k: i64| match drive.odometry(100 * k) {
-                odometry if k < nones as i64 => {
+                odometry if nones.contains(&k) => {
                     (100 * k, Odometry { pose: none, twist: Twist::default(), ..odometry })
                 }
                 odometry => (100 * k, odometry),
             };
-            write(to, "/odom", (0..8).map(message));
+            write(to, "/odom", (0..20).map(message));
         });
         open_file(&path, &without("roof"))
     };
-    let drive = opened(2).unwrap();
-    let told =
-        "/odom: 2 of 8 messages have no pose (a finite position and a unit quaternion), and are not used";
-    assert_eq!(drive.warnings(), [told]);
-    let motion = &drive.sequence().motion;
-    assert_eq!((motion.poses().len(), motion.odometry().len(), motion.odometry()[0].velocity), (6, 6, 8.0));
-    let refused = opened(8).err().unwrap().to_string();
-    assert!(refused.contains("(the kind twist takes the velocities alone), found Pose"), "{refused}");
+    // At the begin, at the end, and for a second between two poses.
+    for nones in [0..2, 0..15, 5..20, 5..14] {
+        let lost = nones.clone().count();
+        let drive = opened(nones).unwrap();
+        let told = format!(
+            "/odom: {lost} of 20 messages have no pose (a finite position and a unit quaternion), and are not used"
+        );
+        assert_eq!(drive.warnings()[0], told);
+        let motion = &drive.sequence().motion;
+        assert_eq!((motion.poses().len(), motion.odometry().len()), (20 - lost, 20 - lost));
+        assert!(motion.odometry().iter().all(|sample| sample.velocity == 8.0));
+    }
+    for (nones, k) in [(0..20, 0), (5..15, 5), (1..19, 1)] {
+        let refused = opened(nones).err().unwrap().to_string();
+        let place = format!("/odom at {} ns", T0 + 100 * k * MS);
+        assert!(refused.contains(&place), "{refused}");
+        assert!(refused.contains("(the kind twist takes the velocities alone), found Pose"), "{refused}");
+    }
 }
 
 /// A gripper's transform that is none, a mast that is told of twice, and a vehicle in two frames.
