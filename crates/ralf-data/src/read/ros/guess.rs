@@ -66,13 +66,14 @@ pub fn guess(path: &Path) -> Result<Guess, DataError> {
 
 pub(super) fn of_messages(messages: &Messages) -> Guess {
     let mut guess = Guess { topics: Topics::new(), remarks: Vec::new() };
+    let mut of_world = Vec::new();
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
     for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
         if topic.name.ends_with(LABELLED) {
             guess.remarks.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
         } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
-            guess.add_cloud(messages, topic, place);
+            of_world.extend(guess.add_cloud(messages, topic, place));
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
             guess.add_camera(topics, topic);
         } else if survey::types(TopicKind::Tf)[0].is(&topic.type_name) {
@@ -84,23 +85,40 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
         }
     }
     guess.add_motion(topics);
+    // Only now it is known which topics tell of the vehicle and its frames.
+    for (entry, frame) in of_world {
+        guess.add_of_world(messages, entry, &frame);
+    }
     guess.remarks.extend(vehicle::add(&mut guess.topics, messages));
     guess
 }
 
 impl Guess {
-    /// A radar or a LiDAR; no map of the world, which nothing fixes to the vehicle.
-    fn add_cloud(&mut self, messages: &Messages, topic: &Topic, place: usize) {
+    /// A radar or a LiDAR. A LiDAR whose frame is called as the world's is handed back with that frame.
+    fn add_cloud(
+        &mut self,
+        messages: &Messages,
+        topic: &Topic,
+        place: usize,
+    ) -> Option<(TopicConfig, String)> {
         let mut of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
         // What can't be read is told by whoever reads all of it.
         let frame = of_topic.find_map(|message| frame(messages, message)).unwrap_or_default();
         let entry = cloud_entry(messages, topic, place, &frame);
         if entry.kind == TopicKind::Lidar && vehicle::is_world(&frame) {
-            let why = format!("its points lie in the frame `{frame}`, which is no part of a vehicle");
-            self.remarks.push(format!("{} is not used: {why}", topic.name));
-        } else {
-            self.add(entry);
+            return Some((entry, frame));
         }
+        self.add(entry);
+        None
+    }
+
+    /// A LiDAR of a rig that stands still in the world; no map, whose frame nothing fixes to the vehicle.
+    fn add_of_world(&mut self, messages: &Messages, entry: TopicConfig, frame: &str) {
+        if vehicle::is_fixed(frame, &self.topics, messages) {
+            return self.add(entry);
+        }
+        let why = format!("its points lie in the frame `{frame}`, which is no part of a vehicle");
+        self.remarks.push(format!("{} is not used: {why}", entry.topic));
     }
 
     /// Under the topic's short name, or where that is taken the whole one, or that with a number. No sensor is called

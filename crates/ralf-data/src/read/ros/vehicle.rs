@@ -39,6 +39,15 @@ pub(super) fn add(topics: &mut Topics, messages: &Messages) -> Option<String> {
     })
 }
 
+/// Whether static transforms fix a frame to one that is called as vehicles are, or to the one whose motion is told.
+pub(super) fn is_fixed(frame: &str, topics: &Topics, messages: &Messages) -> bool {
+    let of_motion = frame_of_motion(topics, messages).filter(|part| !is_world(part));
+    let vehicles = VEHICLES.into_iter().chain(of_motion.as_deref().map(plain));
+    let all = Frames::of(messages, topics);
+    let reached = all.fixed_to(plain(frame));
+    vehicles.into_iter().any(|vehicle| reached.contains(vehicle))
+}
+
 /// The frame that messages of the odometry or the twist name.
 fn frame_of_motion(topics: &Topics, messages: &Messages) -> Option<String> {
     let is_motion = |topic: &&TopicConfig| matches!(topic.kind, TopicKind::Odometry | TopicKind::Twist);
@@ -101,6 +110,12 @@ impl Frames {
         if VEHICLES.contains(&part) {
             return None;
         }
+        let reached = self.fixed_to(part);
+        VEHICLES.into_iter().find(|name| reached.contains(name)).map(str::to_owned)
+    }
+
+    /// The frames that are fixed to this one, by way of any between, and itself.
+    fn fixed_to<'a>(&'a self, part: &'a str) -> BTreeSet<&'a str> {
         let mut reached = BTreeSet::from([part]);
         let mut known = 0;
         while known < reached.len() {
@@ -111,7 +126,7 @@ impl Frames {
                 }
             }
         }
-        VEHICLES.into_iter().find(|name| reached.contains(name)).map(str::to_owned)
+        reached
     }
 
     /// The one that is called as vehicles are, or else the only one that all others hang on for good.

@@ -430,6 +430,39 @@ fn range_rates_lie_along_the_ray_that_is_measured() {
     assert_eq!(doppler("true", "vz", &[f32::NAN, 0.0]), [in_plane; 2]);
 }
 
+/// A LiDAR on a tripod, in whose frame the vehicle, which stands still, is placed.
+#[test]
+fn a_cloud_in_a_frame_of_the_world_is_taken_where_it_is_fixed_to_the_vehicle() {
+    let guessed = |edges: &[[&'static str; 2]], moves: bool| {
+        let (folder, path) = recording(|drive, to| {
+            let of_map = PointCloud2 { header: drive.header(0, "map"), ..revolution(drive, 0, &[0.0]).1 };
+            write(to, "/lidar", [(0, of_map)]);
+            write(to, "/radar", [scan(drive, 0, &[0.5, 1.0])]);
+            write(to, "/tf_static", edges.iter().map(|edge| (0, drive.transform(0, *edge, [1.0, 0.0, 0.0]))));
+            if moves {
+                odometry(drive, to);
+            }
+        });
+        let guess = guess(&path).unwrap();
+        (folder, path, guess)
+    };
+    let standing = [["map", "base_link"], ["base_link", "base"]];
+    for (edges, moves) in [(&standing[..], false), (&[["map", "base"]], true)] {
+        let (_folder, path, guess) = guessed(edges, moves);
+        assert_eq!(guess.topics["lidar"].kind, TopicKind::Lidar);
+        let drive = crate::read::open(&path, None).unwrap().sequences.remove(0);
+        let x = drive.sequence().rig.lidars[0].vehicle_from_lidar.translation.x;
+        assert_eq!(x, -1.0, "{edges:?}");
+    }
+    let moving = [["map", "odom"], ["base_link", "base"]];
+    for (edges, moves) in [(&moving[..], false), (&standing[1..], true), (&[["map", "base"]], false)] {
+        let guess = guessed(edges, moves).2;
+        assert!(!guess.topics.contains_key("lidar"), "{edges:?}");
+        let told = "/lidar is not used: its points lie in the frame `map`, which is no part of a vehicle";
+        assert!(guess.remarks.contains(&told.to_owned()), "{:?}", guess.remarks);
+    }
+}
+
 #[test]
 fn a_guess_knows_names_in_capitals_maps_and_names_that_are_taken() {
     let (_folder, path) = recording(|drive, to| {
