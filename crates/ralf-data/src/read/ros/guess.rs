@@ -127,8 +127,8 @@ impl Guess {
         let long = entry.topic.trim_matches('/').replace('/', "_");
         let numbered = (2..).map(|number| format!("{long}_{number}"));
         let mut names = [name(&entry.topic), long.clone()].into_iter().chain(numbered);
-        let is_taken =
-            |name: &String| self.topics.contains_key(name) || name.eq_ignore_ascii_case(GROUND_TRUTH);
+        let is_folder = |name: &str| entry.kind.is_sensor() && name.eq_ignore_ascii_case(GROUND_TRUTH);
+        let is_taken = |name: &String| self.topics.contains_key(name) || is_folder(name);
         if let Some(free) = names.find(|name| !is_taken(name)) {
             self.topics.insert(free, entry);
         }

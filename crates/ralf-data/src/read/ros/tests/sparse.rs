@@ -482,3 +482,17 @@ fn a_guess_knows_names_in_capitals_maps_and_names_that_are_taken() {
     let told = "/surroundings is not used: its points lie in the frame `/map`, which is no part of a vehicle";
     assert_eq!(guess.remarks, [told]);
 }
+
+/// Nothing is written by the name of an odometry.
+#[test]
+fn only_a_sensor_is_not_called_as_the_folder_of_truth() {
+    let (_folder, path) = recording(|drive, to| {
+        write(to, "/ground_truth", (0..8).map(|k| (100 * k, drive.odometry(100 * k))));
+        write(to, "/ground_truth/points", [scan(drive, 0, &[0.5, 1.0])]);
+    });
+    let guess = guess(&path).unwrap();
+    assert_eq!(guess.topics["ground_truth"].kind, TopicKind::Odometry);
+    assert!(guess.topics.contains_key("ground_truth_points"), "{:?}", guess.topics);
+    let drive = open_file(&path, &topics_toml(&guess).unwrap()).unwrap();
+    assert_eq!(drive.sequence().motion.poses().len(), 8);
+}
