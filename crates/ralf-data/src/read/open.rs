@@ -167,7 +167,7 @@ fn none_of_them(path: &Path) -> String {
     let files = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
     files.filter(is_recording).min().map_or_else(
         || "none of them".to_owned(),
-        |file| format!("none of them, but {}, which can be named itself", file.display()),
+        |file| format!("none of them, but {}, which can be named by itself", file.display()),
     )
 }
 
@@ -197,7 +197,7 @@ mod tests {
             fs::write(folder.path().join(name), magic).unwrap();
         }
         let first = folder.path().join("drive_0.mcap");
-        let hint = format!("found none of them, but {}, which can be named itself", first.display());
+        let hint = format!("found none of them, but {}, which can be named by itself", first.display());
         assert!(error(None).ends_with(&hint), "{}", error(None));
         assert!(error(Some("kitti")).contains("expected one of zod, ralf, "), "{}", error(Some("kitti")));
         assert!(error(Some("ralf")).contains("sequences"), "{}", error(Some("ralf")));
