@@ -136,7 +136,7 @@ const BEHIND: f64 = 0.2;
 
 #[test]
 fn what_all_radars_hear_behind_things_moves_none_of_them() {
-    let mut deep = planted(&Recording::of(TURNING, 120, 4));
+    let mut deep = planted(&Recording::of(TURNING, 60, 4));
     deep.edit_radars(|_, _, columns| {
         for row in 0..columns[0].len() {
             let range = columns[..3].iter().map(|column| column[row] * column[row]).sum::<f32>().sqrt();
