@@ -201,7 +201,7 @@ fn work_is_dealt_once_and_what_people_did_is_told() {
     let told = ["run.json: expected the record of a finished `ralf label`"];
     ralf(["evaluate", &dataset.path, "--progress"]).exits(1).prints_nothing().ends_with_error(told);
     let begun = dataset.beside("begun");
-    let kept = format!("{begun}/.ralf-unfinished/0123");
+    let kept = format!("{begun}/.ralf-run/0123");
     fs::create_dir_all(&kept).unwrap();
     fs::write(format!("{kept}/inputs.json"), "").unwrap();
     assert_eq!(ralf(["evaluate", &begun, "--progress", "--json"]).exits(0).json(), json!([]));
