@@ -15,9 +15,6 @@ use ralf_data::{DataError, Recording, SequenceReader, Settings, open_selected};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The format whose topics are told.
-const ROS: &str = "ros";
-
 /// Which recording, and which part of it.
 #[derive(Debug, Args)]
 pub(crate) struct DatasetArgs {
@@ -78,13 +75,6 @@ impl DatasetArgs {
 
     fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
         let recording = open_selected(&self.dataset, self.format.as_deref(), topics, &self.sequences)?;
-        if self.topics.is_some() && recording.format != ROS {
-            let place = self.dataset.display();
-            anyhow::bail!(
-                "--topics: {place}: expected a recording of ROS, found the format {}",
-                recording.format
-            );
-        }
         Ok(if self.sequences.is_empty() { copied(recording) } else { recording })
     }
 }

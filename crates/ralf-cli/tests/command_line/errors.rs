@@ -220,9 +220,8 @@ fn a_correction_that_changes_nothing_of_such_a_sensor_is_refused() {
 #[test]
 fn settings_that_change_nothing_of_a_recording_are_refused() {
     let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
-    let [poses, topics] = ["poses.txt", "topics.toml"].map(|name| dataset.beside(name));
+    let poses = dataset.beside("poses.txt");
     fs::write(&poses, "1 0 0 0 0 1 0 0 0 0 1 0\n".repeat(3)).unwrap();
-    fs::write(&topics, "[topics.odom]\ntopic = \"/odom\"\nkind = \"odometry\"\n").unwrap();
     let check =
         |more: &[&str]| Ran::of(&program().args(["check", &dataset.path]).args(more).output().unwrap());
     let no_trajectory =
@@ -238,9 +237,6 @@ fn settings_that_change_nothing_of_a_recording_are_refused() {
     let yaw_rate = ["--trajectory", &poses, "--set", "motion.yaw_rate_factor=2"];
     let told = "motion.yaw_rate_factor: expected a motion with yaw rates, found poses alone";
     check(&yaw_rate).exits(1).ends_with_error([told]);
-    let told = "--topics: ";
-    let found = "expected a recording of ROS, found the format ralf";
-    check(&["--topics", &topics]).exits(1).ends_with_error([told, found]);
     check(&["--set", "motion.trajectory_frame=vehicle", "--set", "corrections.lidar_top.period_ms=100"])
         .exits(0);
 }
