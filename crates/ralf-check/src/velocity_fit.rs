@@ -9,9 +9,6 @@ use ralf::space::{Point, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Fields of range rates, and of those without the vehicle's motion.
-pub(crate) const RAW: &str = "doppler";
-pub(crate) const COMPENSATED: &str = "doppler_compensated";
 /// A detection belongs to the standing world within this and a share of the speed: noise of the range rate, m/s, and
 /// what an azimuth that is off by a degree makes of it.
 const TOLERANCE: (f64, f64) = (0.15, 0.02);

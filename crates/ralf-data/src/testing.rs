@@ -3,6 +3,8 @@
 use crate::Settings;
 use crate::read::ros::Topics;
 use crate::read::{Recording, SequenceReader, open_selected};
+use ralf::sensors::{Elevation, Radar, Reliability};
+use ralf::space::Transform;
 use std::path::{Path, PathBuf};
 
 /// A folder of the real recordings, where the environment names them; else the test says that it is skipped.
@@ -12,6 +14,22 @@ pub(crate) fn data(name: &str) -> Option<PathBuf> {
         println!("skipped: RALF_TEST_DATA is not set");
     }
     folder
+}
+
+/// A radar that looks ahead from a vehicle's front and measures no elevation, with these fields.
+pub(crate) fn radar(fields: &[&str]) -> Radar {
+    Radar {
+        name: "front".to_owned(),
+        fields: fields.iter().map(|name| (*name).to_owned()).collect(),
+        vehicle_from_radar: Transform::translation(3.0, 0.0, 0.5),
+        elevation: Elevation::None,
+        fov_azimuth: 2.0,
+        fov_elevation: 1.0,
+        sigma_range: 0.1,
+        sigma_azimuth: 0.01,
+        sigma_elevation: 0.01,
+        reliability: Reliability::default(),
+    }
 }
 
 /// Writes a file, with its folders.

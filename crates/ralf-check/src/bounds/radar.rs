@@ -53,7 +53,7 @@ pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> V
     verdicts.extend(in_degrees);
     verdicts.extend(negative(&radar.name, &told));
     verdicts.extend(ranges(&radar.name, &all));
-    verdicts.extend(elevation(radar, &all));
+    verdicts.extend(elevation(radar, looks));
     verdicts
 }
 
@@ -197,16 +197,17 @@ fn ranges(name: &str, all: &[[f64; 3]]) -> Option<Verdict> {
     Some(doubt(name, format!("half of the detections lie beyond {middle:.1} m"), remedy))
 }
 
-fn elevation(radar: &Radar, all: &[[f64; 3]]) -> Option<Verdict> {
-    let always = one_elevation(all).filter(|_| radar.elevation == Elevation::Measured)?;
+fn elevation(radar: &Radar, looks: &[RadarLook]) -> Option<Verdict> {
+    let always = one_elevation(looks).filter(|_| radar.elevation == Elevation::Measured)?;
     let evidence =
         format!("elevation is said to be measured, and is {:.2} degrees always", always.to_degrees());
     Some(doubt(&radar.name, evidence, Some(Remedy::LookInto("elevation = \"none\" in the rig"))))
 }
 
 /// The elevation of detections that all lie in one plane, or on one cone, rad.
-pub(crate) fn one_elevation(all: &[[f64; 3]]) -> Option<f64> {
-    let angles: Vec<f64> = all.iter().map(|row| row[2]).filter(|angle| angle.is_finite()).collect();
+pub(crate) fn one_elevation(looks: &[RadarLook]) -> Option<f64> {
+    let angles = looks.iter().flat_map(|look| &look.spherical).map(|row| row[2]);
+    let angles: Vec<f64> = angles.filter(|angle| angle.is_finite()).collect();
     let [low, high] = [quantile(&angles, 0.01)?, quantile(&angles, 0.99)?];
     (high - low <= SAME_ELEVATION).then_some(low)
 }

@@ -6,7 +6,8 @@
 
 use crate::sample::{RadarLook, nearest};
 use crate::statistics::median;
-use crate::velocity_fit::{RAW, VelocityFit, fit, told};
+use crate::velocity_fit::{VelocityFit, fit, told};
+use ralf::scene::Doppler;
 use ralf::sensors::{Radar, RadarScan, Source, SourceError};
 use ralf::space::{EgoMotion, OdometrySample, Transform, Vector};
 
@@ -159,7 +160,7 @@ impl<'a> Window<'a> {
 }
 
 fn add_detections(radar: &Radar, scan: &RadarScan, rays: &mut Vec<Vector>, rates: &mut Vec<f64>) {
-    for told in told(radar, scan, RAW) {
+    for told in told(radar, scan, Doppler::RAW) {
         rays.push(factors(&radar.vehicle_from_radar, &told.ray));
         rates.push(told.range_rate);
     }

@@ -4,13 +4,12 @@ use super::case::{Case, is_trusted};
 use super::doppler::{COMPENSATED, is_explained};
 use crate::doppler::{Timed, compare};
 use crate::remedy::Remedy;
-use crate::velocity_fit;
 use crate::verdict::{Question, Verdict};
+use ralf::scene::Doppler;
 
 /// Judges each radar that has such a field.
 pub(super) fn judge(case: &Case) -> Vec<Verdict> {
-    let has_field =
-        |radar: &usize| case.sequence.rig.radars[*radar].column(velocity_fit::COMPENSATED).is_some();
+    let has_field = |radar: &usize| case.sequence.rig.radars[*radar].column(Doppler::COMPENSATED).is_some();
     case.radars().filter(has_field).map(|radar| one(case, radar)).collect()
 }
 
@@ -26,13 +25,13 @@ fn one(case: &Case, radar: usize) -> Verdict {
              which three in ten detections agree",
             fits.len(),
             case.sample.radars[radar].len(),
-            velocity_fit::COMPENSATED
+            Doppler::COMPENSATED
         );
         return Verdict::cannot_judge(name, question, missing);
     };
     let evidence = format!(
         "`{}` of {} scans has {:.2} of the vehicle's speed in it ({:.0} % of the detections agree)",
-        velocity_fit::COMPENSATED,
+        Doppler::COMPENSATED,
         figures.scans,
         figures.ratio.value,
         figures.inliers * 100.0

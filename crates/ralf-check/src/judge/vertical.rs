@@ -34,9 +34,7 @@ pub(super) fn judge(case: &Case) -> Vec<Verdict> {
 
 fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
     let sensor = &case.sequence.rig.radars[radar];
-    let all: Vec<[f64; 3]> =
-        case.sample.radars[radar].iter().flat_map(|look| &look.spherical).copied().collect();
-    if sensor.elevation == Elevation::None || one_elevation(&all).is_some() {
+    if sensor.elevation == Elevation::None || one_elevation(&case.sample.radars[radar]).is_some() {
         return None;
     }
     if places < PLACES {

@@ -108,26 +108,15 @@ impl WithoutNumbers {
 mod tests {
     use super::*;
     use crate::result::{Kind, Schema, Values};
+    use crate::testing;
     use ralf::sensors::Rig;
-    use ralf::space::Transform;
     use std::sync::Arc;
 
     const NAN: f32 = f32::NAN;
 
     /// A radar with fields `doppler` and `rcs`.
     fn radar() -> Radar {
-        Radar {
-            name: "front".to_owned(),
-            fields: ["x", "y", "z", "doppler", "rcs"].map(str::to_owned).to_vec(),
-            vehicle_from_radar: Transform::identity(),
-            elevation: ralf::sensors::Elevation::Measured,
-            fov_azimuth: 2.0,
-            fov_elevation: 1.0,
-            sigma_range: 0.1,
-            sigma_azimuth: 0.01,
-            sigma_elevation: 0.01,
-            reliability: Default::default(),
-        }
+        testing::radar(&["x", "y", "z", "doppler", "rcs"])
     }
 
     /// So many detections, all alike.

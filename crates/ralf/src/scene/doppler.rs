@@ -13,15 +13,20 @@ pub struct Doppler {
 }
 
 impl Doppler {
-    /// The range rates of a radar's scan: the fields `doppler` and `doppler_compensated`, each derived from the other
-    /// where the radar has but one, or a detection (some recordings have no compensated one while the vehicle stands).
-    /// `None` where it has neither.
+    /// The field of the raw range rates.
+    pub const RAW: &str = "doppler";
+    /// The field of those without the vehicle's motion.
+    pub const COMPENSATED: &str = "doppler_compensated";
+
+    /// The range rates of a radar's scan: the fields [`Self::RAW`] and [`Self::COMPENSATED`], each derived from the
+    /// other where the radar has but one, or a detection (some recordings have no compensated one while the vehicle
+    /// stands). `None` where it has neither.
     ///
     /// The difference is the radial part of the radar's own velocity, `u . (v + omega x t)`: `u` is the unit ray to the
     /// detection, `t` the radar's lever arm from the vehicle's origin.
     pub fn new(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> Option<Self> {
         let column = |name: &str| radar.column(name).map(|place| &scan.columns[place]);
-        let (raw, compensated) = (column("doppler"), column("doppler_compensated"));
+        let (raw, compensated) = (column(Self::RAW), column(Self::COMPENSATED));
         raw.or(compensated)?;
         let rate = |column: Option<&Vec<f32>>, at: usize| column.map_or(f64::NAN, |rates| rates[at].into());
         let rates = own_motion(radar, scan, motion).enumerate().map(|(at, along)| {
@@ -44,8 +49,9 @@ pub fn radar_velocity(radar: &Radar, t_ns: i64, motion: &EgoMotion) -> Vector {
     velocity + turn.cross(&radar.vehicle_from_radar.translation.vector)
 }
 
-/// How fast the radar itself moves towards each detection, m/s.
-fn own_motion(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> impl Iterator<Item = f64> {
+/// How fast the radar itself moves towards each detection of a scan, m/s: what a raw range rate lacks of the one
+/// without the vehicle's motion.
+pub fn own_motion(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> impl Iterator<Item = f64> {
     let of_radar = radar.vehicle_from_radar.rotation.inverse() * radar_velocity(radar, scan.t_ns, motion);
     scan.positions
         .iter()

@@ -33,7 +33,7 @@ pub use camera::{
     ImageId, ImageView, ImageWithDepth, Seen, SegmentedImage, SegmentedStraightView, SegmentedView,
     ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
-pub use doppler::{Doppler, radar_velocity};
+pub use doppler::{Doppler, own_motion, radar_velocity};
 pub use floor::LocalGround;
 pub use frame::{Frame, NotRead, SensorKind, Unreadable};
 pub use ground::{Ground, GroundSurface, Plane};

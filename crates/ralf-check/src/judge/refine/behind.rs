@@ -61,14 +61,14 @@ impl Way {
 impl Behind {
     /// One distance for all radars of a vehicle.
     pub(super) fn of(ways: &[&Way]) -> Self {
-        let (metres, deviation) = likeliest(|i| ways.iter().map(|way| way.posteriors[i]).sum());
+        let (metres, deviation) = peak(|i| ways.iter().map(|way| way.posteriors[i]).sum());
         Self { metres, deviation: deviation.hypot(APART) }
     }
 }
 
 /// The likeliest distance and its standard deviation, by the logarithm of how likely each is that was tried: as a
 /// parabola falls off, through the likeliest and those beside it.
-fn likeliest(log: impl Fn(usize) -> f64) -> (f64, f64) {
+fn peak(log: impl Fn(usize) -> f64) -> (f64, f64) {
     let at = |i: usize| FIRST + i as f64 * STEP;
     let logs: Vec<f64> = (0..TRIED).map(|i| log(i) - (at(i) / PRIOR).powi(2) / 2.0).collect();
     let best = (0..TRIED).max_by(|a, b| logs[*a].total_cmp(&logs[*b])).unwrap_or(1);
@@ -90,14 +90,14 @@ mod tests {
     #[test]
     fn what_is_measured_sharply_counts_and_what_is_not_is_near_nothing() {
         let at = |i: usize| FIRST + i as f64 * STEP;
-        let measured = |place: f64, sigma: f64| likeliest(|i| -((at(i) - place) / sigma).powi(2) / 2.0);
+        let measured = |place: f64, sigma: f64| peak(|i| -((at(i) - place) / sigma).powi(2) / 2.0);
         let (behind, deviation) = measured(0.17, 0.03);
         // Of two that are known to 0.03 and 0.2: their weighted mean.
         let weight = 0.2_f64.powi(2) / (0.2_f64.powi(2) + 0.03_f64.powi(2));
         assert!((behind - 0.17 * weight).abs() < 1e-9 && (deviation - 0.03 * weight.sqrt()).abs() < 1e-9);
-        let (behind, deviation) = likeliest(|_| 5.0);
+        let (behind, deviation) = peak(|_| 5.0);
         assert!(behind.abs() < 1e-9 && (deviation - PRIOR).abs() < 1e-9, "{behind} {deviation}");
-        assert_eq!(likeliest(|i| 20.0 * at(i).powi(2)), (LAST, PRIOR), "what grows ever faster");
+        assert_eq!(peak(|i| 20.0 * at(i).powi(2)), (LAST, PRIOR), "what grows ever faster");
         assert_eq!(measured(2.0, 0.05).0, LAST, "no farther than what is tried");
     }
 }

@@ -6,6 +6,7 @@
 
 mod behind;
 mod beside;
+mod common;
 mod evidence;
 mod fronts;
 mod proposal;
@@ -17,12 +18,10 @@ use super::case::Case;
 use crate::change::SensorChange;
 use crate::overlap::Measure;
 use behind::Behind;
-use quantity::values;
+use common::common;
 use radar::Radar;
 use serde::Serialize;
 
-/// Changes of several drives that differ by less than this are one, in what one expects to be off.
-const ALIKE: f64 = 0.4;
 /// The correction of one sensor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refinement {
@@ -42,6 +41,13 @@ pub struct Refinement {
     pub only_of: Option<Vec<String>>,
 }
 
+impl Refinement {
+    /// A sensor's change as it was found.
+    fn as_found(name: &str, change: SensorChange) -> Self {
+        Self { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change, only_of: None }
+    }
+}
+
 /// The corrections of all LiDARs, as they were found in more drives than not, and with these in place of all radars.
 pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
     let mut refined = Vec::new();
@@ -53,7 +59,7 @@ pub(super) fn refine(cases: &mut [Case]) -> Vec<Refinement> {
         for case in &mut *cases {
             number(case).into_iter().for_each(|lidar| case.lidar_changes[lidar] = change);
         }
-        refined.push(as_found(&name, change));
+        refined.push(Refinement::as_found(&name, change));
     }
     let radars =
         names(cases, |case| case.radars().map(|radar| &case.sequence.rig.radars[radar].name).collect());
@@ -78,44 +84,4 @@ fn names<'a>(cases: &'a [Case], of: impl Fn(&'a Case<'a>) -> Vec<&'a String>) ->
         }
     }
     names
-}
-
-/// What was found in most drives; nothing where most found nothing, or something else each.
-fn common(changes: &[SensorChange]) -> SensorChange {
-    let is_like = |a: &SensorChange, b: &SensorChange| {
-        (values(a) - values(b)).amax() <= ALIKE && is_alike_besides(a, b)
-    };
-    let count = |change: &SensorChange| changes.iter().filter(|other| is_like(change, other)).count();
-    let most = changes.iter().copied().find(|change| 2 * count(change) > changes.len());
-    most.unwrap_or_default()
-}
-
-/// Whether two changes are the same but for what is refined.
-fn is_alike_besides(a: &SensorChange, b: &SensorChange) -> bool {
-    let rest =
-        |change: &SensorChange| (change.mirrored, change.turn_deg[0], change.turn_deg[1], change.shift_m[2]);
-    rest(a) == rest(b)
-}
-
-/// A sensor's change as it was found.
-fn as_found(name: &str, change: SensorChange) -> Refinement {
-    Refinement { name: name.to_owned(), change, deviations: [f64::NAN; 4], proposed: change, only_of: None }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_most_drives_ask_for_is_common_and_what_one_asks_for_is_not() {
-        let nothing = SensorChange::default();
-        let [near, nearer] = [SensorChange::yaw(-4.0), SensorChange::yaw(-4.6)];
-        assert_eq!(common(&[nearer]), nearer, "of a single drive all");
-        assert_eq!(common(&[near, nothing, nothing]), nothing);
-        assert_eq!(common(&[near, nothing]), nothing, "as many deny it");
-        assert_eq!(common(&[near, nearer, nothing]), near);
-        let other = SensorChange::yaw(170.0);
-        assert_eq!(common(&[near, other, nothing]), nothing, "each something else");
-        assert_eq!(common(&[near, SensorChange { mirrored: true, ..near }, nothing]), nothing);
-    }
 }

@@ -1,12 +1,13 @@
 //! A radar whose correction is sought, in the drives that can tell.
 
 use super::super::case::Case;
+use super::Refinement;
 use super::behind::{Behind, Way};
+use super::common::{common, is_alike_besides};
 use super::evidence::Evidence;
 use super::proposal::{proposed, told};
 use super::quantity::Values;
 use super::search::{Open, deviations, likeliest};
-use super::{Refinement, as_found, common, is_alike_besides};
 use crate::change::SensorChange;
 use crate::doppler::clock;
 use crate::overlap::Measure;
@@ -41,7 +42,7 @@ impl<'a> Radar<'a> {
         let only_of = (alike.len() < all.len())
             .then(|| alike.iter().map(|(case, _)| case.sequence.name.clone()).collect());
         let (base, found) = of_drives(&alike);
-        Self { alone: Refinement { only_of, ..as_found(name, base) }, found }
+        Self { alone: Refinement { only_of, ..Refinement::as_found(name, base) }, found }
     }
 
     /// Its corrections by how far behind things it hears them, where the LiDARs tell its place: of one that range rates

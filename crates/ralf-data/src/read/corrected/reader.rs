@@ -2,16 +2,13 @@
 
 use crate::read::corrections::{Altered, MotionSource, SensorCorrection};
 use crate::read::recording::SequenceReader;
-use ralf::scene::Doppler;
+use ralf::scene::{Doppler, own_motion};
 use ralf::sensors::{
     CameraImage, ClassImage, DepthImage, LidarScan, Radar, RadarScan, Sequence, Source, SourceError,
 };
 use ralf::space::EgoMotion;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-
-/// The field of range rates without the vehicle's motion.
-const COMPENSATED: &str = "doppler_compensated";
 
 /// A sequence with corrections.
 pub(super) struct Corrected {
@@ -131,7 +128,7 @@ fn factor(correction: &SensorCorrection, field: &str) -> f64 {
         "x" | "z" | "range" => position_factor,
         "y" => position_factor * mirror,
         "azimuth" | "vy" | "vy_comp" => mirror,
-        "doppler" | COMPENSATED => doppler_factor,
+        Doppler::RAW | Doppler::COMPENSATED => doppler_factor,
         _ => 1.0,
     }
 }
@@ -139,14 +136,12 @@ fn factor(correction: &SensorCorrection, field: &str) -> f64 {
 /// Range rates without the vehicle's motion, of those that were corrected: what a recorder made of its motion and of
 /// rates in another unit, or with another sign, no factor puts right. Where one is missing the other is left as it is.
 fn compensate(radar: &Radar, scan: &mut RadarScan, motion: &EgoMotion) {
-    let Some(place) = radar.column(COMPENSATED).filter(|_| motion.is_known()) else { return };
-    let told = std::mem::take(&mut scan.columns[place]);
-    scan.columns[place] = vec![f32::NAN; told.len()];
-    let anew = Doppler::new(radar, scan, motion).map_or(Vec::new(), |rates| rates.compensated);
-    let anew = anew.into_iter().map(|rate| rate as f32).chain(std::iter::repeat(f32::NAN));
-    let both = told.iter().zip(anew);
-    scan.columns[place] =
-        both.map(|(told, anew)| if told.is_nan() || anew.is_nan() { *told } else { anew }).collect();
+    let places = [Doppler::RAW, Doppler::COMPENSATED].map(|field| radar.column(field));
+    let ([Some(raw), Some(compensated)], true) = (places, motion.is_known()) else { return };
+    let rates = own_motion(radar, scan, motion).zip(&scan.columns[raw]);
+    let anew: Vec<f32> = rates.map(|(along, raw)| (f64::from(*raw) + along) as f32).collect();
+    let told = scan.columns[compensated].iter_mut().zip(anew);
+    told.filter(|(told, anew)| !told.is_nan() && !anew.is_nan()).for_each(|(told, anew)| *told = anew);
 }
 
 impl SequenceReader for Corrected {
@@ -179,23 +174,8 @@ impl SequenceReader for Corrected {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::sensors::{Elevation, Reliability};
-    use ralf::space::{OdometrySample, Transform};
-
-    fn radar(fields: &[&str]) -> Radar {
-        Radar {
-            name: "front".into(),
-            fields: fields.iter().map(|name| (*name).to_owned()).collect(),
-            vehicle_from_radar: Transform::translation(3.0, 0.0, 0.5),
-            elevation: Elevation::None,
-            fov_azimuth: 2.0,
-            fov_elevation: 0.3,
-            sigma_range: 0.1,
-            sigma_azimuth: 0.01,
-            sigma_elevation: 0.0,
-            reliability: Reliability::default(),
-        }
-    }
+    use crate::testing;
+    use ralf::space::OdometrySample;
 
     #[test]
     fn compensated_rates_are_of_the_corrected_ones() {
@@ -203,20 +183,20 @@ mod tests {
         let motion =
             EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.0 }], vec![]).unwrap();
         let compensated = |motion: &EgoMotion, fields: &[&str], columns: Vec<Vec<f32>>| {
-            let radar = radar(&[&["x", "y"], fields].concat());
+            let radar = testing::radar(&[&["x", "y"], fields].concat());
             let ahead = vec![vec![10.0; columns[0].len()], vec![0.0; columns[0].len()]];
             let columns = ahead.into_iter().chain(columns).collect();
             let mut scan = RadarScan::new(&radar, 0, columns).unwrap();
             compensate(&radar, &mut scan, motion);
             scan.columns.last().unwrap().clone()
         };
-        let both = ["doppler", COMPENSATED];
+        let both = ["doppler", "doppler_compensated"];
         let told = vec![vec![-5.0, 0.0, -5.0], vec![10.0, -5.0, f32::NAN]];
         let anew = compensated(&motion, &both, told.clone());
         assert_eq!(anew[..2], [0.0, 5.0]);
         assert!(anew[2].is_nan(), "what the recording doesn't hold");
         assert_eq!(compensated(&EgoMotion::unknown(), &both, told)[..2], [10.0, -5.0], "of no motion");
-        assert_eq!(compensated(&motion, &[COMPENSATED], vec![vec![1.5]]), [1.5], "of nothing else");
+        assert_eq!(compensated(&motion, &["doppler_compensated"], vec![vec![1.5]]), [1.5], "of nothing else");
     }
 
     #[test]
