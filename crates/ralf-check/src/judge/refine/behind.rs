@@ -5,7 +5,7 @@
 
 use super::evidence::Evidence;
 use super::quantity::Values;
-use super::search::{Open, uphill};
+use super::search::{Bend, Open, Place};
 
 /// Distances that are tried, m, so far apart and so many.
 const FIRST: f64 = -0.1;
@@ -31,14 +31,15 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// From the likeliest values at no distance.
-    pub(super) fn of(evidence: &mut Evidence, mut values: Values, open: Open) -> Self {
+    /// From the likeliest values at no distance, along the axes that are independent there.
+    pub(super) fn of(evidence: &mut Evidence, mut place: Place, open: Open) -> Self {
         let mut way = Self { values: Vec::new(), posteriors: Vec::new() };
+        let bend = Bend::at(evidence, &place, open);
         for behind in (0..TRIED).map(|i| FIRST + i as f64 * STEP) {
             evidence.behind = behind;
-            values = uphill(evidence, values, open);
-            way.posteriors.push(evidence.posterior(&values));
-            way.values.push(values);
+            place = bend.uphill(evidence, Place::at(evidence, place.values));
+            way.posteriors.push(place.posterior);
+            way.values.push(place.values);
         }
         way
     }

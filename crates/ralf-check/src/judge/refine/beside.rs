@@ -5,7 +5,7 @@ use super::fronts::Fronts;
 use crate::change::SensorChange;
 use crate::overlap::Setup;
 use crate::sample::{LidarLook, RadarLook};
-use ralf::space::{EgoMotion, Point, Transform};
+use ralf::space::{EgoMotion, Point, Transform, Vector};
 
 /// A radar's scan belongs to a LiDAR's within this, ns.
 const TOGETHER_NS: u64 = 80_000_000;
@@ -22,18 +22,10 @@ const FIRST_BAND: f64 = 8.0;
 /// A radar's scan, with the detections that were seen again.
 struct Seen {
     t_ns: i64,
-    /// Where the LiDAR sees down to the foot of things.
-    positions: Vec<Point>,
+    /// Where the LiDAR sees down to the foot of things, by band of range.
+    seen_whole: [Vec<Point>; BANDS],
     /// Nearer, where it looks over the noses of cars that a radar sees.
     looked_over: Vec<Point>,
-}
-
-/// How many detections lie on the fronts of things.
-pub(super) struct OnFronts {
-    /// Of the positions, by band of range.
-    pub(super) bands: [f64; BANDS],
-    /// Of those that are looked over: of no use for more than a first guess.
-    pub(super) looked_over: f64,
 }
 
 /// Scans of a radar beside each scan of the LiDARs.
@@ -61,8 +53,9 @@ impl<'a> Beside<'a> {
                 let is_seen_whole =
                     |position: &Point| lidar.sees_down_to_the_foot(&way.of(&change.place(position)));
                 let again = seen_again(looks, i, &case.motion, &mount).into_iter();
-                let (positions, looked_over) = again.partition(is_seen_whole);
-                Seen { t_ns, positions, looked_over }
+                let (positions, looked_over): (Vec<Point>, _) = again.partition(is_seen_whole);
+                let in_band = |own: usize| positions.iter().filter(|at| band(at) == own).copied().collect();
+                Seen { t_ns, seen_whole: std::array::from_fn(in_band), looked_over }
             });
             let own_place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change).of(&Point::origin());
             let fronts = Fronts::of(&lidar.field, own_place.coords);
@@ -74,36 +67,70 @@ impl<'a> Beside<'a> {
     /// By moment: in which bands of range there is any detection.
     pub(super) fn observed(&self) -> impl ExactSizeIterator<Item = [bool; BANDS]> {
         self.moments.iter().map(|moment| {
-            let mut found = [false; BANDS];
-            let positions = moment.seen.iter().flat_map(|scan| &scan.positions);
-            positions.for_each(|position| found[band(position)] = true);
-            found
+            std::array::from_fn(|band| moment.seen.iter().any(|scan| !scan.seen_whole[band].is_empty()))
         })
     }
 
-    /// By moment: how many detections lie so far behind the fronts of things, m, where a change puts them.
-    pub(super) fn on_fronts(
-        &self,
-        setup: &Setup,
-        radar: usize,
-        change: &SensorChange,
-        behind: f64,
-    ) -> Vec<OnFronts> {
-        let mut found = Vec::with_capacity(self.moments.len());
-        for Moment { lidar, fronts, seen } in &self.moments {
-            let mut sums = OnFronts { bands: [0.0; BANDS], looked_over: 0.0 };
-            for scan in seen {
-                let way = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
-                let at = |position: &Point| {
-                    let p = way.of(&change.place(position));
-                    fronts.before(behind, p.x, p.y)
-                };
-                scan.positions.iter().for_each(|position| sums.bands[band(position)] += at(position));
-                sums.looked_over += scan.looked_over.iter().map(at).sum::<f64>();
+    /// By moment and band of range: how many detections lie so far behind the fronts of things, m, where a change puts
+    /// them.
+    pub(super) fn on_fronts(&self, put: &Put) -> Vec<[f64; BANDS]> {
+        let of_moment = |moment: &Moment| {
+            let mut bands = [0.0; BANDS];
+            for scan in &moment.seen {
+                let on_front = put.on_front(moment, scan.t_ns);
+                for (sum, positions) in bands.iter_mut().zip(&scan.seen_whole) {
+                    *sum += positions.iter().map(&on_front).sum::<f64>();
+                }
             }
-            found.push(sums);
+            bands
+        };
+        self.moments.iter().map(of_moment).collect()
+    }
+
+    /// The same of those that are looked over, all together: of no use for more than a first guess.
+    pub(super) fn looked_over(&self, put: &Put) -> f64 {
+        let scans = self.moments.iter().flat_map(|moment| moment.seen.iter().map(move |scan| (moment, scan)));
+        scans.map(|(at, scan)| scan.looked_over.iter().map(put.on_front(at, scan.t_ns)).sum::<f64>()).sum()
+    }
+}
+
+/// Where a radar's detections are put.
+pub(super) struct Put<'a> {
+    pub(super) setup: Setup<'a>,
+    pub(super) radar: usize,
+    pub(super) change: &'a SensorChange,
+    /// So far behind the fronts of things, m.
+    pub(super) behind: f64,
+}
+
+impl Put<'_> {
+    /// How much a detection of a radar's scan lies on the front of a thing.
+    fn on_front(&self, moment: &Moment, t_ns: i64) -> impl Fn(&Point) -> f64 {
+        let way = self.setup.lidar_from_radar(self.radar, moment.lidar, t_ns, self.change);
+        let plan = Plan::of(|position| way.of(&self.change.place(position)));
+        move |position| {
+            let [x, y] = plan.place(position);
+            moment.fronts.before(self.behind, x, y)
         }
-        found
+    }
+}
+
+/// Where places come to lie in plan, by an affine map.
+struct Plan {
+    origin: Vector,
+    axes: [Vector; 3],
+}
+
+impl Plan {
+    fn of(way: impl Fn(&Point) -> Point) -> Self {
+        let origin = way(&Point::origin()).coords;
+        let axis = |axis: usize| way(&Vector::ith(axis, 1.0).into()).coords - origin;
+        Self { origin, axes: std::array::from_fn(axis) }
+    }
+
+    fn place(&self, p: &Point) -> [f64; 2] {
+        let Self { origin, axes: [a, b, c] } = self;
+        [origin.x + a.x * p.x + b.x * p.y + c.x * p.z, origin.y + a.y * p.x + b.y * p.y + c.y * p.z]
     }
 }
 

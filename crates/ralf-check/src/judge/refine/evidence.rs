@@ -1,7 +1,7 @@
 //! What a correction rests on: how likely the measurements are under it.
 
 use super::super::case::Case;
-use super::beside::{BANDS, Beside, OnFronts};
+use super::beside::{BANDS, Beside, Put};
 use super::quantity::{Values, values, with_values};
 use crate::change::SensorChange;
 use crate::doppler::predicted;
@@ -82,10 +82,7 @@ impl<'a> Evidence<'a> {
     /// The logarithm of the likelihood of each part of the evidence, but for a constant.
     pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
         let change = self.change(values);
-        self.drives
-            .iter()
-            .flat_map(|drive| drive.parts(&change, &drive.on_fronts(&change, self.behind)))
-            .collect()
+        self.drives.iter().flat_map(|drive| drive.parts(&drive.put(&change, self.behind))).collect()
     }
 
     /// Whether the LiDAR tells how far along the way things are: where these values put them, clearly more detections
@@ -94,8 +91,8 @@ impl<'a> Evidence<'a> {
     pub(super) fn tells_along(&self, values: &Values) -> bool {
         let on_fronts = |metres: f64| -> f64 {
             let change = self.change(&(values + self::values(&SensorChange::shift(metres, 0.0))));
-            let moments = self.drives.iter().flat_map(|drive| drive.on_fronts(&change, self.behind));
-            moments.flat_map(|moment| moment.bands).sum()
+            let on_fronts = |drive: &Drive| drive.beside.on_fronts(&drive.put(&change, self.behind));
+            self.drives.iter().flat_map(on_fronts).flatten().sum()
         };
         let there = on_fronts(0.0);
         let aside = ASIDE.iter().map(|metres| on_fronts(*metres)).sum::<f64>() / ASIDE.len() as f64;
@@ -107,9 +104,9 @@ impl<'a> Evidence<'a> {
     pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
         let change = self.change(values);
         let of_drive = |drive: &Drive| {
-            let moments = drive.on_fronts(&change, self.behind);
-            let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
-            drive.parts(&change, &moments).iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over
+            let put = drive.put(&change, self.behind);
+            let seen_whole = drive.parts(&put).iter().flatten().sum::<f64>();
+            seen_whole + LIDAR_WEIGHT * drive.beside.looked_over(&put)
         };
         self.drives.iter().map(of_drive).sum::<f64>() - values.norm_squared() / 2.0
     }
@@ -135,15 +132,16 @@ impl<'a> Drive<'a> {
         found
     }
 
-    fn on_fronts(&self, change: &SensorChange, behind: f64) -> Vec<OnFronts> {
-        self.beside.on_fronts(&self.case.setup(), self.radar, change, behind)
+    fn put<'b>(&'b self, change: &'b SensorChange, behind: f64) -> Put<'b> {
+        Put { setup: self.case.setup(), radar: self.radar, change, behind }
     }
 
-    fn parts(&self, change: &SensorChange, moments: &[OnFronts]) -> [[f64; KINDS]; STRETCHES] {
-        let Self { case, radar, .. } = *self;
+    fn parts(&self, put: &Put) -> [[f64; KINDS]; STRETCHES] {
+        let (case, radar, change) = (self.case, self.radar, put.change);
         let mut found = [[0.0; KINDS]; STRETCHES];
-        for (i, moment) in moments.iter().enumerate() {
-            for (sum, beside) in found[stretch(i, moments.len())][1..].iter_mut().zip(moment.bands) {
+        let moments = self.beside.on_fronts(put);
+        for (i, bands) in moments.iter().enumerate() {
+            for (sum, beside) in found[stretch(i, moments.len())][1..].iter_mut().zip(bands) {
                 *sum += LIDAR_WEIGHT * beside;
             }
         }

@@ -21,60 +21,56 @@ const EMPTY: usize = 4;
 /// A ray meets the first cell of a thing so much before its points, m: the mean over walls at all angles up to 60
 /// degrees, whose points lie anywhere in their cells.
 const BEFORE: f64 = 0.75 * CELL;
-/// A front is felt within so many bins: three standard deviations.
-const FELT: usize = 6;
+/// A front is felt within this, m: three standard deviations.
+const FELT: f64 = 3.0 * SIGMA;
 
-/// By direction and range from a radar: 1 on a front, 0 where there is none.
+/// Where things begin, by direction from a radar. Most rays meet few things: a table by direction and range would be
+/// looked up in memory a thousand times as large.
 pub(super) struct Fronts {
     origin: Vector,
-    /// Ray by ray, by range.
-    values: Vec<f32>,
+    /// Distances of all fronts, m, ray by ray.
+    ranges: Vec<f64>,
+    /// Where each ray's begin among these, and where the last one's end.
+    begins: Vec<usize>,
 }
 
 impl Fronts {
     /// The fronts of a LiDAR's obstacles as seen from a place among them.
     pub(super) fn of(field: &PlanField, origin: Vector) -> Self {
-        let mut values = vec![0.0; RAYS * STEPS];
-        for (ray, values) in values.chunks_exact_mut(STEPS).enumerate() {
+        let (mut ranges, mut begins) = (Vec::new(), vec![0]);
+        for ray in 0..RAYS {
             let (sin, cos) = (ray as f64 * TAU / RAYS as f64).sin_cos();
             let mut begun = 0;
             for bin in 0..STEPS {
                 let range = (bin as f64 + 0.5) * STEP;
                 if field.is_obstacle(origin.x + range * cos, origin.y + range * sin) {
                     if bin >= begun + EMPTY {
-                        paint(values, bin as f64 * STEP + BEFORE);
+                        ranges.push(bin as f64 * STEP + BEFORE);
                     }
                     begun = bin + 1;
                 }
             }
+            begins.push(ranges.len());
         }
-        Self { origin, values }
+        Self { origin, ranges, begins }
     }
 
-    /// So far before a place along its ray, m; linear between rays and between ranges. 0 beyond 42 m.
+    /// How much a place, so far before itself along its ray, m, lies on a front: 1 on it, 0 where there is none; linear
+    /// between rays.
     pub(super) fn before(&self, behind: f64, x: f64, y: f64) -> f64 {
         let (x, y) = (x - self.origin.x, y - self.origin.y);
-        let range = (x.hypot(y) - behind) / STEP - 0.5;
-        if !(0.0..(STEPS - 1) as f64).contains(&range) {
-            return 0.0;
-        }
+        let range = (x * x + y * y).sqrt() - behind;
         let azimuth = y.atan2(x).rem_euclid(TAU) * RAYS as f64 / TAU;
-        let along = |ray: usize| {
-            let first = ray % RAYS * STEPS + range as usize;
-            let (near, far) = (f64::from(self.values[first]), f64::from(self.values[first + 1]));
-            near + (far - near) * range.fract()
-        };
-        let (right, left) = (along(azimuth as usize), along(azimuth as usize + 1));
+        let (right, left) =
+            (self.felt(azimuth as usize % RAYS, range), self.felt((azimuth as usize + 1) % RAYS, range));
         right + (left - right) * azimuth.fract()
     }
-}
 
-/// A front at a range, m.
-fn paint(values: &mut [f32], front: f64) {
-    let bin = (front / STEP) as usize;
-    for (i, value) in values.iter_mut().enumerate().take(bin + FELT + 1).skip(bin.saturating_sub(FELT)) {
-        let off = ((i as f64 + 0.5) * STEP - front) / SIGMA;
-        *value = value.max((-off * off / 2.0).exp() as f32);
+    /// How much a place on a ray lies on the nearest front.
+    fn felt(&self, ray: usize, range: f64) -> f64 {
+        let fronts = &self.ranges[self.begins[ray]..self.begins[ray + 1]];
+        let off = fronts.iter().map(|front| (front - range).abs()).fold(f64::INFINITY, f64::min);
+        if off < FELT { (-(off / SIGMA).powi(2) / 2.0).exp() } else { 0.0 }
     }
 }
 

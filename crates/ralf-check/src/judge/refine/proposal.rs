@@ -2,7 +2,7 @@
 
 use super::evidence::Evidence;
 use super::quantity::{QUANTITIES, Quantity, Values};
-use super::search::{Deviations, Open, likeliest};
+use super::search::{Deviations, Open, Place, likeliest, summit};
 
 /// A correction is proposed when it is so many of the standard deviations that chance gives.
 const SIGMAS: f64 = 3.0;
@@ -20,17 +20,21 @@ pub(super) fn told(deviations: &Deviations, quantity: usize) -> f64 {
 /// again without. What can't be judged here stays as it was found.
 pub(super) fn proposed(
     evidence: &Evidence,
-    likeliest_of_all: Values,
+    likeliest_of_all: Place,
     deviations: &Deviations,
     mut open: Open,
-) -> Values {
-    let mut values = likeliest_of_all;
-    while let Some(least) = idle(&values, deviations, open).or_else(|| hardly_missed(evidence, &values, open))
-    {
-        values = without(evidence, &values, open, least);
-        open[least] = false;
+) -> Place {
+    let mut place = likeliest_of_all;
+    loop {
+        let (least, rest) = match idle(&place.values, deviations, open) {
+            Some(least) => (least, without(evidence, &place, open, least)),
+            None => match hardly_missed(evidence, &place, open) {
+                Some(hardly) => hardly,
+                None => return place,
+            },
+        };
+        (place, open[least]) = (rest, false);
     }
-    values
 }
 
 /// The least telling quantity of those that are smaller than what is proposed.
@@ -44,19 +48,21 @@ fn idle(values: &Values, deviations: &Deviations, open: Open) -> Option<usize> {
     idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b)))
 }
 
-/// The quantity without which values are least less likely, if that is less than so many standard deviations mean:
-/// farther from its maximum a likelihood may fall off less than about it.
-fn hardly_missed(evidence: &Evidence, values: &Values, open: Open) -> Option<usize> {
-    let highest = evidence.posterior(values);
-    let gain = |i: usize| highest - evidence.posterior(&without(evidence, values, open, i));
-    let gains = (0..4).filter(|i| open[*i]).map(|i| (i, gain(i)));
-    let hardly = gains.filter(|(_, gain)| *gain < SIGMAS * SIGMAS / 2.0);
-    hardly.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+/// The quantity without which values are least less likely, if that is less than so many standard deviations mean, and
+/// those without it: farther from its maximum a likelihood may fall off less than about it.
+fn hardly_missed(evidence: &Evidence, place: &Place, open: Open) -> Option<(usize, Place)> {
+    let left = (0..4).filter(|i| open[*i]).map(|i| (i, without(evidence, place, open, i)));
+    let hardly = left.filter(|(_, left)| place.posterior - left.posterior < SIGMAS * SIGMAS / 2.0);
+    hardly.max_by(|a, b| a.1.posterior.total_cmp(&b.1.posterior))
 }
 
-/// The likeliest values without a quantity.
-fn without(evidence: &Evidence, values: &Values, mut open: Open, quantity: usize) -> Values {
-    let mut start = *values;
+/// The likeliest values without a quantity: near those with it where it is small, anywhere else where it isn't.
+fn without(evidence: &Evidence, place: &Place, mut open: Open, quantity: usize) -> Place {
+    let mut start = place.values;
+    let is_small = start[quantity].abs() * QUANTITIES[quantity].prior < QUANTITIES[quantity].steps[0];
     (start[quantity], open[quantity]) = (0.0, false);
-    likeliest(evidence, &start, open)
+    match is_small {
+        true => summit(evidence, Place::at(evidence, start), open),
+        false => likeliest(evidence, &start, open),
+    }
 }

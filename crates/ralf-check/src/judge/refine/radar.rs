@@ -6,8 +6,7 @@ use super::behind::{Behind, Way};
 use super::common::{common, is_alike_besides};
 use super::evidence::Evidence;
 use super::proposal::{proposed, told};
-use super::quantity::Values;
-use super::search::{Open, deviations, likeliest};
+use super::search::{Open, Place, deviations, likeliest, summit};
 use crate::change::SensorChange;
 use crate::doppler::clock;
 use crate::overlap::Measure;
@@ -55,13 +54,13 @@ impl<'a> Radar<'a> {
     pub(super) fn refined(self, behind: Behind) -> Refinement {
         let Some(Found { drives, open, way }) = self.found else { return self.alone };
         let evidence = Evidence::of(&drives, self.alone.change, behind.metres);
-        let values = likeliest(&evidence, &way.at(behind.metres), open);
-        let (open, values) = told_along(&evidence, values, open);
-        let deviations = deviations(&evidence, &values, open, &way.by_deviation(behind));
+        let place = summit(&evidence, Place::at(&evidence, way.at(behind.metres)), open);
+        let (open, place) = told_along(&evidence, place, open);
+        let deviations = deviations(&evidence, &place, open, &way.by_deviation(behind));
         Refinement {
-            change: evidence.change(&values),
+            change: evidence.change(&place.values),
             deviations: std::array::from_fn(|i| told(&deviations, i)),
-            proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
+            proposed: evidence.change(&proposed(&evidence, place, &deviations, open).values),
             ..self.alone
         }
     }
@@ -83,8 +82,8 @@ fn of_drives<'a>(drives: &[(&'a Case<'a>, usize)]) -> (SensorChange, Option<Foun
         return (base, None);
     }
     let mut evidence = Evidence::of(&telling, base, 0.0);
-    let (open, values) = found(&evidence, std::array::from_fn(|i| opens.iter().any(|open| open[i])));
-    let way = Way::of(&mut evidence, values, open);
+    let (open, place) = found(&evidence, std::array::from_fn(|i| opens.iter().any(|open| open[i])));
+    let way = Way::of(&mut evidence, place, open);
     (base, Some(Found { drives: telling, open, way }))
 }
 
@@ -105,16 +104,16 @@ fn is_mounted_alike(a: &Transform, b: &Transform) -> bool {
 }
 
 /// The likeliest values of what is open.
-fn found(evidence: &Evidence, open: Open) -> (Open, Values) {
+fn found(evidence: &Evidence, open: Open) -> (Open, Place) {
     told_along(evidence, likeliest(evidence, &evidence.start(), open), open)
 }
 
 /// A LiDAR that doesn't tell how far along the way things are would pull at that and at the clock all the same: then
 /// both are left alone.
-fn told_along(evidence: &Evidence, values: Values, open: Open) -> (Open, Values) {
+fn told_along(evidence: &Evidence, place: Place, open: Open) -> (Open, Place) {
     let [yaw, forward, left, _] = open;
-    if !forward || evidence.tells_along(&values) {
-        return (open, values);
+    if !forward || evidence.tells_along(&place.values) {
+        return (open, place);
     }
     let open = [yaw, false, left, false];
     (open, likeliest(evidence, &evidence.start(), open))

@@ -8,42 +8,59 @@ use super::evidence::{Evidence, KINDS, Parts, STRETCHES};
 use super::quantity::{QUANTITIES, Values};
 use nalgebra::{Matrix4, SymmetricEigen};
 
-/// Rounds over each quantity for itself, and over the axes of the bend.
-const ROUNDS: usize = 3;
+/// Rounds over the axes of the bend: so many, or until one brings hardly anything.
+const ROUNDS: usize = 4;
+/// Of a logarithm of likelihood: a tenth of a standard deviation.
+const HARDLY: f64 = 0.005;
 /// Of its prior standard deviation, a quantity is looked for within so much.
 const WIDEST: f64 = 2.0;
 /// Differences are taken over so much of each quantity: degrees, m, ms. Less is lost in the steps of the LiDAR's grid.
 const REACH: [f64; 4] = [0.5, 0.08, 0.08, 20.0];
 /// Along an axis of the bend a search ends at this part of a standard deviation.
-const FINEST: f64 = 0.05;
+const FINEST: f64 = 0.2;
 
 /// Which quantities may be changed; the others stay as they are.
 pub(super) type Open = [bool; 4];
 
-/// The likeliest values near a start.
-pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Values {
-    let mut best = *start;
-    for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
-        best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
-    }
-    (0..ROUNDS).fold(best, |best, _| uphill(evidence, best, open))
+/// Values, and how likely they are.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub(super) values: Values,
+    pub(super) posterior: f64,
 }
 
-/// Up from a start, over each quantity for itself and then over the axes of the bend.
-pub(super) fn uphill(evidence: &Evidence, mut best: Values, open: Open) -> Values {
-    for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
+impl Place {
+    pub(super) fn at(evidence: &Evidence, values: Values) -> Self {
+        Self { values, posterior: evidence.posterior(&values) }
+    }
+}
+
+/// The likeliest values, wherever they are.
+pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Place {
+    let mut best = *start;
+    let quantities = || QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]);
+    for (i, quantity) in quantities() {
+        best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
+    }
+    let mut place = Place::at(evidence, best);
+    for (i, quantity) in quantities() {
         let mut axis = Values::zeros();
         axis[i] = 1.0 / quantity.prior;
-        best = along(evidence, best, &axis, quantity.steps);
+        place = along(evidence, place, &axis, quantity.steps);
     }
-    let Bend { axes, variances } = Bend::at(evidence, &best, open);
-    for (axis, variance) in axes.column_iter().zip(variances.iter()).filter(|(_, variance)| **variance > 0.0)
-    {
-        // Exactly 0 where nothing may change: an eigenvector is so but for rounding.
-        let deviation = Values::from_fn(|i, _| if open[i] { axis[i] * variance.sqrt() } else { 0.0 });
-        best = along(evidence, best, &deviation, [1.0, FINEST]);
+    summit(evidence, place, open)
+}
+
+/// Up from a place, along the axes of the bend there.
+pub(super) fn summit(evidence: &Evidence, mut place: Place, open: Open) -> Place {
+    for _ in 0..ROUNDS {
+        let before = place.posterior;
+        place = Bend::at(evidence, &place, open).uphill(evidence, place);
+        if place.posterior - before < HARDLY {
+            break;
+        }
     }
-    best
+    place
 }
 
 /// The best value of one quantity within [`WIDEST`], in steps: rows of things stand one behind the other, and the wrong
@@ -60,28 +77,32 @@ fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> V
     scored.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(start, |(_, values)| values)
 }
 
-/// The best along a direction: in steps that are halved from the first to the last.
-fn along(evidence: &Evidence, start: Values, direction: &Values, [first, last]: [f64; 2]) -> Values {
-    let (mut best, mut highest, mut step) = (start, evidence.posterior(&start), first);
+/// The best along a direction: in steps of which each is a quarter of the one before, from the first to the last, and
+/// where both sides are lower at the vertex of the parabola through the three.
+fn along(evidence: &Evidence, start: Place, direction: &Values, [first, last]: [f64; 2]) -> Place {
+    let (mut best, mut step) = (start, first);
     while step >= last {
-        let mut moved = false;
-        for side in [-step, step] {
-            let values = best + direction * side;
-            let score = evidence.posterior(&values);
-            if score > highest {
-                (best, highest, moved) = (values, score, true);
-                break;
-            }
+        let at = |side: f64| Place::at(evidence, best.values + direction * side);
+        let higher = |tried: &Place| tried.posterior > best.posterior;
+        let behind = at(-step);
+        let ahead = if higher(&behind) { behind } else { at(step) };
+        if higher(&ahead) {
+            best = ahead;
+            continue;
         }
-        if !moved {
-            step /= 2.0;
+        let bend = 2.0 * best.posterior - behind.posterior - ahead.posterior;
+        let vertex = at(step / 2.0 * (ahead.posterior - behind.posterior) / bend);
+        if higher(&vertex) {
+            best = vertex;
         }
+        step /= 4.0;
     }
     best
 }
 
 /// How the posterior falls off about its maximum, as independent axes.
-struct Bend {
+pub(super) struct Bend {
+    open: Open,
     /// Unit vectors, as columns.
     axes: Matrix4<f64>,
     /// Along each; 0 along quantities that aren't open. Never more than before anything was measured.
@@ -89,12 +110,15 @@ struct Bend {
 }
 
 impl Bend {
-    fn at(evidence: &Evidence, values: &Values, open: Open) -> Self {
+    pub(super) fn at(evidence: &Evidence, place: &Place, open: Open) -> Self {
         let mut precision = Matrix4::identity();
         for i in (0..4).filter(|i| open[*i]) {
             for j in (0..=i).filter(|j| open[*j]) {
-                let corner = |a: f64, b: f64| evidence.posterior(&(values + reach(i) * a + reach(j) * b));
-                let mixed = corner(1.0, 1.0) - corner(1.0, -1.0) - corner(-1.0, 1.0) + corner(-1.0, -1.0);
+                let corner =
+                    |a: f64, b: f64| evidence.posterior(&(place.values + reach(i) * a + reach(j) * b));
+                let aside =
+                    if i == j { 2.0 * place.posterior } else { corner(1.0, -1.0) + corner(-1.0, 1.0) };
+                let mixed = corner(1.0, 1.0) + corner(-1.0, -1.0) - aside;
                 precision[(i, j)] = -mixed / (4.0 * reach(i)[i] * reach(j)[j]);
                 precision[(j, i)] = precision[(i, j)];
             }
@@ -102,7 +126,19 @@ impl Bend {
         let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(precision);
         let is_open = |axis: usize| (0..4).any(|i| open[i] && eigenvectors[(i, axis)].abs() > 1e-9);
         let variances = Values::from_fn(|i, _| if is_open(i) { 1.0 / eigenvalues[i].max(1.0) } else { 0.0 });
-        Self { axes: eigenvectors, variances }
+        Self { open, axes: eigenvectors, variances }
+    }
+
+    /// Up from a place along the axes.
+    pub(super) fn uphill(&self, evidence: &Evidence, mut best: Place) -> Place {
+        for (axis, variance) in self.axes.column_iter().zip(self.variances.iter()).filter(|(_, v)| **v > 0.0)
+        {
+            // Exactly 0 where nothing may change: an eigenvector is so but for rounding.
+            let deviation =
+                Values::from_fn(|i, _| if self.open[i] { axis[i] * variance.sqrt() } else { 0.0 });
+            best = along(evidence, best, &deviation, [1.0, FINEST]);
+        }
+        best
     }
 
     fn covariance(&self) -> Matrix4<f64> {
@@ -128,9 +164,9 @@ pub(super) struct Deviations {
 /// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
 /// what goes together, and from how much parts of the evidence disagree (the sandwich of White, *Econometrica* 50,
 /// 1982), which knows what the model doesn't: stretches of time, kinds, and drives, each of which has walls of its own.
-pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open, by_behind: &Values) -> Deviations {
-    let covariance = Bend::at(evidence, values, open).covariance();
-    let slopes = slopes(evidence, values, open);
+pub(super) fn deviations(evidence: &Evidence, place: &Place, open: Open, by_behind: &Values) -> Deviations {
+    let covariance = Bend::at(evidence, place, open).covariance();
+    let slopes = slopes(evidence, &place.values, open);
     let [stretches, kinds, drives] =
         draws(&slopes, &evidence.observed()).map(|slopes| covariance * disagreement(&slopes) * covariance);
     let of = |variances: Matrix4<f64>| {
