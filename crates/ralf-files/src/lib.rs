@@ -112,12 +112,27 @@ pub fn read(file: &Path, kind: Kind) -> Result<Vec<u8>> {
     refuse_above(kind.limit()?, bytes.len() as u64).map(|()| bytes)
 }
 
-/// The whole file as UTF-8 text.
+/// The whole file as UTF-8 text, as [`text`] has it.
 pub fn read_text(file: &Path, kind: Kind) -> Result<String> {
-    String::from_utf8(read(file, kind)?).map_err(|error| {
-        let place = error.utf8_error().valid_up_to();
+    text(read(file, kind)?).map_err(|place| {
         Error::new(ErrorKind::InvalidData, format!("byte {place}: expected UTF-8 text, found other bytes"))
     })
+}
+
+/// What bytes say as UTF-8 text, without the byte order mark that Windows' editors put before it.
+///
+/// ```
+/// assert_eq!(ralf_files::text(b"\xEF\xBB\xBF1,2".to_vec()), Ok("1,2".to_owned()));
+/// ```
+///
+/// # Errors
+/// The place of the first byte that is no UTF-8.
+pub fn text(bytes: Vec<u8>) -> std::result::Result<String, usize> {
+    let mut text = String::from_utf8(bytes).map_err(|error| error.utf8_error().valid_up_to())?;
+    if text.starts_with('\u{feff}') {
+        text.remove(0);
+    }
+    Ok(text)
 }
 
 /// An error of the system as a sentence, where there is no such file or folder; any other stays as it is.

@@ -44,17 +44,11 @@ pub(crate) fn open_input(file: &Path) -> Result<(fs::File, u64), DataError> {
     Ok((fs::File::open(file).map_err(DataError::io(file))?, size))
 }
 
-/// The whole file as UTF-8 text.
+/// The whole file as UTF-8 text, as [`ralf_files::text`] has it.
 pub(crate) fn read_text(file: &Path, kind: Kind) -> Result<String, DataError> {
     let bytes = ralf_files::read(file, kind).map_err(DataError::io(file))?;
-    String::from_utf8(bytes).map_err(|error| {
-        DataError::content(
-            file,
-            format!("byte {}", error.utf8_error().valid_up_to()),
-            "UTF-8 text",
-            "other bytes",
-        )
-    })
+    ralf_files::text(bytes)
+        .map_err(|place| DataError::content(file, format!("byte {place}"), "UTF-8 text", "other bytes"))
 }
 
 /// A file of packed little-endian float32 rows, as one vector per column; there is at least one.

@@ -81,8 +81,7 @@ pub(super) fn read(
 
 fn rows(file: &Path) -> Result<Vec<Row>, DataError> {
     let text = files::read_text(file, Kind::Table)?;
-    // A byte order mark, as Windows' editors write it.
-    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let filled = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     filled.map(|(line, text)| row(file, line, text)).collect()
 }

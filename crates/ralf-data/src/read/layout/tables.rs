@@ -19,8 +19,7 @@ const LATEST_NS: i64 = i64::MAX / 2;
 pub(crate) fn read_timestamps(file: &Path) -> Result<Vec<i64>, DataError> {
     let mut order = Order { file, latest: None };
     let text = files::read_text(file, Kind::Table)?;
-    let text = text.trim_start_matches('\u{feff}').trim_end();
-    (1..).zip(text.lines()).map(|(line, text)| order.next(line, text)).collect()
+    (1..).zip(text.trim_end().lines()).map(|(line, text)| order.next(line, text)).collect()
 }
 
 /// The bytes of a `timestamps.txt`.
@@ -80,8 +79,7 @@ struct Row<const N: usize> {
 /// The rows below the header. Lines are split here, for the csv crate miscounts them where they end in CR LF.
 fn read_rows<const N: usize>(file: &Path, names: &[&str]) -> Result<Vec<Row<N>>, DataError> {
     let text = files::read_text(file, Kind::Table)?;
-    // Spreadsheets put a byte order mark before the first name.
-    let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
+    let mut lines = (1..).zip(text.lines());
     let header = lines.next().map_or("", |(_, text)| text);
     if !header.split(',').map(str::trim).eq(names.iter().copied()) {
         return Err(DataError::content(
