@@ -10,6 +10,7 @@ import type { Verdict } from "../data/rules.js";
 import { sameScan } from "../data/scan.js";
 import type { Keeper } from "../history/keep.js";
 import { type Errand, type Met, Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
+import { inPieces } from "../history/pieces.js";
 import { countOf } from "../selection/mask.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
@@ -48,7 +49,7 @@ export class Correcting {
     if (countOf(selection) === 0 || outbox.kind === "conflict" || readOnly(this.world)) return;
     const { sequence, stroke } = this.strokeOf(selection, choice, tool);
     store.set({ selection: new Uint8Array(selection.length) });
-    await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
+    await this.add([{ sequence, stroke: because(stroke, cause) }]);
   }
 
   /** Makes the selected plausible ones artifacts and the other way round, as one step. */
@@ -66,7 +67,7 @@ export class Correcting {
       .filter(({ half }) => countOf(half) > 0)
       .map(({ label, half }) => this.strokeOf(half, label, tool, group));
     store.set({ selection: new Uint8Array(selection.length) });
-    await this.outbox.add(strokes);
+    await this.add(strokes);
   }
 
   /**
@@ -85,7 +86,7 @@ export class Correcting {
       return points.length === 0 ? [] : [{ sequence, stroke }];
     });
     store.set({ selection: new Uint8Array(cloud.count), opinion: null, opinionAt: -1 });
-    await this.outbox.add(strokes);
+    await this.add(strokes);
     return true;
   }
 
@@ -117,7 +118,7 @@ export class Correcting {
     const stroke = { ...said, id: randomName(), confirm: true, base: baseOf({ base }, points), points };
     // It is answered: a second press must not answer what isn't on screen once more.
     store.set({ selection: new Uint8Array(cloud.count), disputed: null, kind: null });
-    await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
+    await this.add([{ sequence, stroke: because(stroke, cause) }]);
     return true;
   }
 
@@ -127,7 +128,11 @@ export class Correcting {
       const stroke = { id: randomName(), tool: "rule", protect: true, label, base, points };
       return { sequence, stroke: because(stroke, cause) };
     });
-    await this.outbox.add(strokes);
+    await this.add(strokes);
+  }
+
+  private add(strokes: readonly Pending[]): Promise<void> {
+    return this.outbox.add(strokes.flatMap((pending) => inPieces(pending)));
   }
 
   retry(): Promise<void> {
