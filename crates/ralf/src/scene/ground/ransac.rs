@@ -7,6 +7,7 @@ use crate::space::{Point, Vector};
 use rand::RngExt;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
+use std::cmp::Reverse;
 
 /// Hypotheses that are scored.
 const HYPOTHESES: usize = 300;
@@ -15,7 +16,10 @@ const DRAWS: usize = 8 * HYPOTHESES;
 /// Points that a hypothesis is scored on at first.
 const FIRST_LOOK: usize = 1024;
 /// Hypotheses that are scored on all points.
-const FINALISTS: usize = 8;
+const FINALISTS: usize = 16;
+
+/// A plane, and how many points lie on it.
+type Scored = (usize, Plane);
 
 /// The points that can lie on an admissible plane, each coordinate apart.
 pub(super) struct Candidates {
@@ -57,35 +61,48 @@ impl Candidates {
         Self { xs: thin(&self.xs), ys: thin(&self.ys), zs: thin(&self.zs) }
     }
 
-    /// How many points lie within `distance` of the plane; `None` as soon as it is told that they are fewer than the
-    /// least number.
-    fn inliers_if_at_least(&self, least: usize, plane: &Plane, distance: f64) -> Option<usize> {
+    /// A plane and how many points lie within `inlier_distance` of it; `None` as soon as it is told that they are fewer
+    /// than the least number.
+    fn scored_if_at_least(&self, least: usize, plane: Plane, config: &GroundConfig) -> Option<Scored> {
         let mut inliers = 0;
         let mut left = self.len();
         for (xs, ys, zs) in self.blocks() {
-            inliers += count_inliers((xs, ys, zs), plane, distance);
+            inliers += count_inliers((xs, ys, zs), &plane, config.inlier_distance);
             left -= xs.len();
             if inliers + left < least {
                 return None;
             }
         }
-        Some(inliers)
+        Some((inliers, plane))
     }
 
-    /// The plane of orthogonal least squares through the points within `distance` of a plane.
-    fn refit(&self, plane: &Plane, distance: f64) -> Option<Plane> {
+    /// What a plane gives way to, which is the one that is fitted to its points while that has more of them; and what
+    /// is fitted to the points of the last.
+    fn climbed(&self, mut best: Scored, config: &GroundConfig) -> (Scored, Option<Plane>) {
+        let mut refitted = self.refitted(&best.1, config);
+        for _ in 0..config.climbs {
+            let higher = |plane| self.scored_if_at_least(best.0 + 1, plane, config);
+            let Some(found) = refitted.and_then(higher) else { break };
+            best = found;
+            refitted = self.refitted(&best.1, config);
+        }
+        (best, refitted)
+    }
+
+    /// The admissible plane of orthogonal least squares through the points within `inlier_distance` of a plane.
+    fn refitted(&self, plane: &Plane, config: &GroundConfig) -> Option<Plane> {
         let mut sums = PlaneSums::default();
         let mut room = [0; BLOCK];
         for (xs, ys, zs) in self.blocks() {
             let point = |x: &f32, y: &f32, z: &f32| Vector::new((*x).into(), (*y).into(), (*z).into());
             let points = xs.iter().zip(ys).zip(zs).map(|((x, y), z)| point(x, y, z));
-            let is_inlier = |p| plane.height(&Point::from(p)).abs() <= distance;
+            let is_inlier = |p| plane.height(&Point::from(p)).abs() <= config.inlier_distance;
             for place in places_where(&mut room, points.map(is_inlier)) {
                 let place = *place as usize;
                 sums = sums.with(point(&xs[place], &ys[place], &zs[place]));
             }
         }
-        sums.plane()
+        sums.plane().filter(|plane| plane.is_admissible(config))
     }
 
     /// Coordinates of points that are looked at together.
@@ -106,29 +123,17 @@ fn count_inliers((xs, ys, zs): (&[f32], &[f32], &[f32]), plane: &Plane, distance
 
 /// The admissible plane with the most points within `inlier_distance`, refitted once on these.
 ///
-/// Hypotheses are scored on a part of the points, and the best of them on all. The winner climbs: as long as the plane
-/// fitted to its points has more of them, that one takes its place, so that little depends on the seed; so many times
-/// at most as `ground.climbs` has it, 0 being the paper's.
+/// Hypotheses are scored on a part of the points, and the best of them on all. They climb there, and the winner among
+/// all: as long as the plane fitted to its points has more of them, that one takes its place, so that little depends on
+/// the seed; so many times at most as `ground.climbs` has it, 0 being the paper's.
 pub(super) fn fit(candidates: &Candidates, config: &GroundConfig, seed: u64) -> Option<Plane> {
-    let least_inliers =
-        |least: usize, plane: &Plane| candidates.inliers_if_at_least(least, plane, config.inlier_distance);
-    let refit = |plane: &Plane| {
-        candidates.refit(plane, config.inlier_distance).filter(|refitted| refitted.is_admissible(config))
-    };
     // The first of equally good ones, whatever their number.
-    let mut best = None;
+    let mut best: Option<Scored> = None;
     for plane in finalists(candidates, config, seed) {
         let least = best.map_or(0, |(inliers, _)| inliers + 1);
-        best = least_inliers(least, &plane).map(|inliers| (inliers, plane)).or(best);
+        best = candidates.scored_if_at_least(least, plane, config).or(best);
     }
-    let (mut inliers, mut best) = best?;
-    let mut refitted = refit(&best);
-    for _ in 0..config.climbs {
-        let higher = |plane: Plane| least_inliers(inliers + 1, &plane).map(|inliers| (inliers, plane));
-        let Some(found) = refitted.and_then(higher) else { break };
-        (inliers, best) = found;
-        refitted = refit(&best);
-    }
+    let ((_, best), refitted) = candidates.climbed(best?, config);
     Some(refitted.unwrap_or(best))
 }
 
@@ -136,16 +141,16 @@ pub(super) fn fit(candidates: &Candidates, config: &GroundConfig, seed: u64) -> 
 /// first.
 fn finalists(candidates: &Candidates, config: &GroundConfig, seed: u64) -> impl Iterator<Item = Plane> {
     let first_look = candidates.thinned();
-    let mut ranked: Vec<(usize, Plane)> = Vec::with_capacity(FINALISTS + 1);
+    let mut ranked: Vec<Scored> = Vec::with_capacity(FINALISTS + 1);
     for plane in draw(candidates, config, seed) {
         let least = ranked.get(FINALISTS - 1).map_or(0, |(inliers, _)| inliers + 1);
-        let Some(inliers) = first_look.inliers_if_at_least(least, &plane, config.inlier_distance) else {
-            continue;
-        };
-        let place = ranked.partition_point(|(better, _)| *better >= inliers);
-        ranked.insert(place, (inliers, plane));
+        let Some(scored) = first_look.scored_if_at_least(least, plane, config) else { continue };
+        let place = ranked.partition_point(|(better, _)| *better >= scored.0);
+        ranked.insert(place, scored);
         ranked.truncate(FINALISTS);
     }
+    ranked.iter_mut().for_each(|scored| *scored = first_look.climbed(*scored, config).0);
+    ranked.sort_by_key(|(inliers, _)| Reverse(*inliers));
     ranked.into_iter().map(|(_, plane)| plane)
 }
 
