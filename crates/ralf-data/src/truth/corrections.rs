@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::read::Recording;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
-use ralf::label::{UNLABELED, class_name};
+use ralf::label::UNLABELED;
 use ralf_corrections::{FILE, Reader, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -53,15 +53,13 @@ impl Corrections {
     /// Reads what is said below an output folder, or in a store's file itself; nothing where there is no such file.
     ///
     /// # Errors
-    /// A file that is no store of corrections, or one of another version of the program; a label that nobody can have
-    /// given.
+    /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
         let file = Self::file_of(out);
         let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans: BTreeMap<ScanId, Vec<ScanLayer>> =
             scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
-        scans.iter().try_for_each(|(scan, said)| check_labels(&file, scan, said))?;
         Ok(Self { file, scans, orphaned: Vec::new() })
     }
 
@@ -274,19 +272,6 @@ impl Corrections {
     }
 }
 
-/// Refuses labels that are no ids of SemanticKITTI: a review takes no others, so that the file is damaged.
-fn check_labels(file: &Path, scan: &ScanId, said: &[ScanLayer]) -> Result<(), DataError> {
-    let given = said.iter().flat_map(|layer| &layer.corrections).map(|(_, label)| *label);
-    let accepted = said.iter().flat_map(|layer| layer.accepted.iter().flatten().copied());
-    match given.chain(accepted).find(|label| class_name(*label).is_none()) {
-        None => Ok(()),
-        Some(unknown) => {
-            let expected = "labels that are ids of SemanticKITTI";
-            Err(DataError::content(file, format!("scan {scan}"), expected, unknown.to_string()))
-        }
-    }
-}
-
 /// A correction, else what the file says, else what was accepted.
 fn said(layer: &ScanLayer, file: Option<Vec<Label>>) -> Vec<Label> {
     let mut labels = file.unwrap_or_else(|| vec![Label::default(); layer.content.detections as usize]);
@@ -356,23 +341,20 @@ mod tests {
         assert_eq!(corrections.truth(&ScanId { scan: 4, ..scan() }, None).unwrap(), None);
     }
 
-    /// A review takes none of these.
+    /// LiDAR points may be labelled so, and the machine's labels go by theirs.
     #[test]
-    fn labels_that_nobody_can_have_given_are_refused() {
-        for (label, accepted) in [(103, 1), (10, 98)] {
-            let out = tempfile::tempdir().unwrap();
-            let mut store = Store::open(&out.path().join(FILE)).unwrap();
-            let radar = "front".to_owned();
-            let edit = ScanEdit { radar, scan: 3, detections: 4, content: None, base: 0, points: vec![1] };
-            let stroke = Stroke { label: Some(label), scans: vec![edit], ..Stroke::of_sequence("00") };
-            store.apply(&stroke, &Who::named("ada")).unwrap();
-            let machine = vec![1, 99, 1, accepted];
-            let mark = Mark { key: (&scan()).into(), content: None, base: 1, machine, reviewed: true };
-            store.mark(&mark, &Who::named("ada")).unwrap();
-            let error = Corrections::open(out.path()).unwrap_err().to_string();
-            let expected = "scan 00/front/000003: expected labels that are ids of SemanticKITTI, found ";
-            assert!(error.contains(expected), "{error}");
-        }
+    fn labels_may_be_ids_that_semantickitti_lacks() {
+        let out = tempfile::tempdir().unwrap();
+        let mut store = Store::open(&out.path().join(FILE)).unwrap();
+        let radar = "front".to_owned();
+        let edit = ScanEdit { radar, scan: 3, detections: 4, content: None, base: 0, points: vec![1] };
+        let stroke = Stroke { label: Some(103), scans: vec![edit], ..Stroke::of_sequence("00") };
+        store.apply(&stroke, &Who::named("ada")).unwrap();
+        let machine = vec![1, 99, 7, u16::MAX];
+        let mark = Mark { key: (&scan()).into(), content: None, base: 1, machine, reviewed: true };
+        store.mark(&mark, &Who::named("ada")).unwrap();
+        let said = Corrections::open(out.path()).unwrap().truth(&scan(), None).unwrap().unwrap();
+        assert_eq!(ids(&said), [1, 103, 7, u16::MAX]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::causes::sayable;
 use crate::http::{Answer, ApiError, EditId, Person, json};
 use ralf::label::{class_name, truth_of};
-use ralf_corrections::{ScanEdit, Stroke};
+use ralf_corrections::{SETTLE, ScanEdit, Stroke};
 use serde::{Deserialize, Deserializer};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -101,9 +101,7 @@ pub(crate) fn history(app: &App, sequence: &str, person: Person) -> Answer {
 fn checked(app: &App, sequence: &str, asked: StrokeRequest) -> Result<Stroke, ApiError> {
     check_name("tool", &asked.tool)?;
     asked.group.as_deref().map_or(Ok(()), |group| check_name("group", group))?;
-    if let Some(unknown) = asked.label.filter(|id| class_name(*id).is_none()) {
-        return Err(malformed(format!("label: expected an id of SemanticKITTI, found {unknown}")));
-    }
+    check_label(&asked.tool, asked.label)?;
     check_cause(asked.cause.as_deref(), asked.label)?;
     let bases: BTreeMap<(&str, usize), &Base> =
         asked.base.iter().map(|base| ((base.radar.as_str(), base.scan), base)).collect();
@@ -141,6 +139,15 @@ fn edit(app: &App, sequence: &str, part: &Points, base: &Base) -> Result<ScanEdi
         base: base.revision,
         points: points.clone(),
     })
+}
+
+/// Nobody sets classes without a name. Who settles may find that a person is right who accepted one from the machine,
+/// whose classes go by the LiDAR points' own labels.
+fn check_label(tool: &str, label: Option<u16>) -> Result<(), ApiError> {
+    match label.filter(|id| tool != SETTLE && class_name(*id).is_none()) {
+        None => Ok(()),
+        Some(unknown) => Err(malformed(format!("label: expected an id of SemanticKITTI, found {unknown}"))),
+    }
 }
 
 /// Only an artifact has a cause, and one that is known.
