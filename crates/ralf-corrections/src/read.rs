@@ -28,18 +28,26 @@ pub(crate) struct ScanRow {
 
 /// The row of a scan with this content, see [`ScanContent::find_in`].
 pub(crate) fn find_scan(on: &Connection, version: &ScanVersion) -> rusqlite::Result<Option<ScanRow>> {
-    let key = &version.key;
-    let mut rows: Vec<ScanRow> = on
-        .prepare_cached(
-            "SELECT id, content, detections, revision FROM scan
-             WHERE sequence = ? AND radar = ? AND scan = ? ORDER BY id",
-        )?
-        .query_map(params![key.sequence, key.radar, key.scan], |row| {
-            Ok(ScanRow { id: row.get(0)?, content: content(row, 1, 2)?, revision: row.get(3)? })
-        })?
-        .collect::<Result<_, _>>()?;
+    let mut rows = rows(on, &version.key)?;
     let contents: Vec<ScanContent> = rows.iter().map(|row| row.content).collect();
     Ok(version.content.find_in(&contents).map(|at| rows.swap_remove(at)))
+}
+
+/// The rows of a scan: one for each content that it had.
+fn rows(on: &Connection, key: &ScanKey) -> rusqlite::Result<Vec<ScanRow>> {
+    on.prepare_cached(
+        "SELECT id, content, detections, revision FROM scan
+             WHERE sequence = ? AND radar = ? AND scan = ? ORDER BY id",
+    )?
+    .query_map(params![key.sequence, key.radar, key.scan], |row| {
+        Ok(ScanRow { id: row.get(0)?, content: content(row, 1, 2)?, revision: row.get(3)? })
+    })?
+    .collect()
+}
+
+/// All that a scan held when somebody said something of it.
+pub(crate) fn contents(on: &Connection, key: &ScanKey) -> rusqlite::Result<Vec<ScanContent>> {
+    Ok(rows(on, key)?.into_iter().map(|row| row.content).collect())
 }
 
 /// A hash, and a number of detections.

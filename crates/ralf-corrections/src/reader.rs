@@ -1,12 +1,13 @@
 //! What can be asked of a store.
 
 use crate::changes::{Changes, changes};
+use crate::content::ScanContent;
 use crate::error::{StoreError, told};
 use crate::history::history;
 use crate::identity::Identity;
-use crate::model::ScanVersion;
+use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{History, ScanState};
-use crate::read::{ScanSummary, scan_state, summaries};
+use crate::read::{ScanSummary, contents, scan_state, summaries};
 use crate::sayings::{Saying, sayings};
 use crate::schema;
 use crate::workday::{Workday, workdays};
@@ -50,6 +51,11 @@ impl Reader {
     /// A name that no other store has.
     pub fn id(&self) -> Result<String, StoreError> {
         self.read(|on| on.query_row("SELECT id FROM store", [], |row| row.get(0)))
+    }
+
+    /// All that a scan held when somebody said something of it, the first first.
+    pub fn contents(&self, scan: &ScanKey) -> Result<Vec<ScanContent>, StoreError> {
+        self.read(|on| contents(on, scan))
     }
 
     /// What is said of a scan with this content; nothing of one that was never touched.

@@ -61,7 +61,7 @@ pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
 pub use tree::{RECORD, SENSORS, SEQUENCES, sensors_file, sequence_folder};
 pub use truth::{
-    Causes, Corrections, GroundTruth, ScanId, lost_sequences, partly_corrected, scan_content, told_orphaned,
-    told_partly_corrected,
+    Causes, Corrections, GroundTruth, HeldContent, ScanId, lost_sequences, partly_corrected, scan_content,
+    told_orphaned, told_partly_corrected,
 };
 pub use write::{has_sequence, has_whole_sequence, write_sequence, write_sequence_with};

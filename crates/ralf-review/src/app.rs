@@ -10,7 +10,9 @@ use crate::options::Options;
 use crate::place::folder_name;
 use crate::shared_store::{SharedStore, identity};
 use crate::team::Team;
-use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError, Who};
+use ralf_corrections::{
+    Outcome, Reader, ScanContent, ScanKey, ScanSummary, ScanVersion, Store, StoreError, Who,
+};
 use ralf_data::run::read_record;
 use ralf_data::{Recording, ScanIndex, SequenceReader};
 use std::path::{Path, PathBuf};
@@ -145,13 +147,29 @@ impl App {
 
     /// What a scan holds as it was read last, for answers about many scans.
     pub(crate) fn known_version(&self, place: ScanPlace) -> Result<ScanVersion, ApiError> {
-        let at = (place.sequence, place.scan);
-        let content = self.contents.known(place.reader, at).map_or_else(|| self.content(&place), Ok)?;
+        let content = self.known_content(&place)?.map_or_else(|| self.content(&place), Ok)?;
         Ok(ScanVersion { key: place.key, content })
     }
 
+    /// What a scan holds now, as the store knows it.
     pub(crate) fn content(&self, place: &ScanPlace) -> Result<ScanContent, ApiError> {
-        Ok(self.contents.read(place.reader, (place.sequence, place.scan))?)
+        let held = self.contents.read(place.reader, (place.sequence, place.scan))?;
+        held.among(|| self.said(|store| store.contents(&place.key)))
+    }
+
+    /// The same as it was read last; `None` of a scan that can't be read.
+    pub(crate) fn known_content(&self, place: &ScanPlace) -> Result<Option<ScanContent>, ApiError> {
+        let held = self.contents.known(place.reader, (place.sequence, place.scan));
+        held.map(|held| held.among(|| self.said(|store| store.contents(&place.key)))).transpose()
+    }
+
+    /// Whether something was said of what a scan holds, and not of something else that it held, or of a scan that the
+    /// recording doesn't have.
+    pub(crate) fn holds(&self, said: &ScanSummary) -> Result<bool, ApiError> {
+        let ScanKey { sequence, radar, scan } = &said.key;
+        let Ok(place) = self.scan(sequence, radar, *scan as usize) else { return Ok(false) };
+        let content = self.known_content(&place)?;
+        Ok(content.is_some_and(|content| content.find_in(&[said.content]).is_some()))
     }
 
     /// A sequence by its name.

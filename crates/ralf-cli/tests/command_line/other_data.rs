@@ -1,8 +1,9 @@
 //! Labels and corrections belong to the data that they were made from, and results to the run that wrote them.
 
 use crate::support::{Dataset, Ran, program, ralf, tree, without_timings};
+use ralf::sensors::RadarScan;
 use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
-use ralf_data::scan_content;
+use ralf_data::{Settings, scan_content};
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
@@ -164,6 +165,54 @@ fn corrections_are_not_applied_to_another_content() {
             .filter(|(name, _)| name.contains("labels/"))
             .eq(tree(before).iter().filter(|(name, _)| name.contains("labels/")))
     );
+}
+
+/// The front radar's first scan, as an edit on a scan with this content.
+fn all_of(measured: &RadarScan) -> Stroke {
+    let detections = measured.len() as u32;
+    let edit = ScanEdit {
+        radar: "radar_front".into(),
+        scan: 0,
+        detections,
+        content: Some(scan_content(measured)),
+        base: 0,
+        points: (0..detections).collect(),
+    };
+    Stroke { label: Some(30), scans: vec![edit], ..Stroke::of_sequence("00") }
+}
+
+/// The radar delivered the same, whatever a setting makes of its values.
+#[test]
+fn corrections_hold_whatever_settings_make_of_values() {
+    let dataset = labelled();
+    let plain = ralf_data::open(Path::new(&dataset.path), None).unwrap();
+    let factor = "corrections.radar_front.doppler_factor=-1";
+    let settings = Settings::from_toml("", &[factor]).unwrap();
+    let altered = settings.correct(ralf_data::open(Path::new(&dataset.path), None).unwrap()).unwrap();
+    let contents = [plain, altered].map(|recording| recording.sequences[0].radar_scan(0, 0).unwrap());
+    assert_ne!(scan_content(&contents[0]), scan_content(&contents[1]));
+    let readers = |name: &str| {
+        let place = dataset.beside(name);
+        let (data, out) = (dataset.path.as_str(), dataset.out.as_str());
+        for asked in [
+            &["export", data, out, "--to", "npz", "--sequence", "00", "-o", &place][..],
+            &["evaluate", out, "--truth", data],
+        ] {
+            let ran = Ran::of(&program().args(asked).output().unwrap()).exits(0);
+            assert!(!ran.stderr.contains("not applied"), "{asked:?}: {}", ran.stderr);
+        }
+    };
+    // What earlier versions wrote is known by the altered values.
+    for (at, (content, label)) in
+        [(0, &[][..]), (0, &["--set", factor]), (1, &["--set", factor])].iter().enumerate()
+    {
+        let store = Path::new(&dataset.out).join(FILE);
+        let _none_yet = fs::remove_file(&store);
+        Store::open(&store).unwrap().apply(&all_of(&contents[*content]), &Who::named("ada")).unwrap();
+        let arguments = [&["label", &dataset.path, "-o", &dataset.out][..], label].concat();
+        Ran::of(&program().args(arguments).output().unwrap()).exits(0);
+        readers(&format!("exported-{at}"));
+    }
 }
 
 /// Flips a byte in the middle of a file, or cuts it short.

@@ -188,6 +188,11 @@ impl SensorCorrection {
         }
     }
 
+    /// Whether measured values become others: not only where a sensor is and when it measured.
+    pub(crate) fn alters_values(&self) -> bool {
+        self.doppler_factor != 1.0 || self.position_factor != 1.0 || self.mirror_y
+    }
+
     /// Corrects the mounting and the times of the sensor of this name. The error says which names there are, or what is
     /// no correction of such a sensor.
     pub(crate) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {

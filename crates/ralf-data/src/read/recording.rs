@@ -5,7 +5,7 @@ use crate::error::DataError;
 use crate::read::corrections::{Altered, MotionSource};
 use crate::read::incomplete::{Incomplete, Lost, whole};
 use ralf::label::Cause;
-use ralf::sensors::{LidarScan, Sequence, Source, SourceError};
+use ralf::sensors::{LidarScan, RadarScan, Sequence, Source, SourceError};
 use std::any::Any;
 use std::path::{Path, PathBuf};
 
@@ -99,6 +99,21 @@ pub trait SequenceReader: Source {
     /// own motion; whoever knows a better one corrects these.
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
         self.inner().map_or(Ok(None), |inner| inner.rolling_scan(lidar, scan))
+    }
+
+    /// A radar's scan as the recording holds it, whatever settings make of its values: by that people's corrections
+    /// know it again.
+    fn delivered(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        match self.inner() {
+            Some(inner) => inner.delivered(radar, scan),
+            None => self.radar_scan(radar, scan),
+        }
+    }
+
+    /// Whether settings change values of a radar's detections, so that [`Source::radar_scan`] may tell others than
+    /// [`delivered`](Self::delivered).
+    fn alters_values(&self, radar: usize) -> bool {
+        self.inner().is_some_and(|inner| inner.alters_values(radar))
     }
 
     /// Where the vehicle's motion comes from.

@@ -9,7 +9,7 @@ use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::open::{is_recognised_as, recognised};
-use crate::read::{Recording, SequenceReader, layout, open_selected, open_with};
+use crate::read::{Recording, SensorCorrection, SequenceReader, layout, open_selected, open_with};
 use crate::settings::Settings;
 use crate::tree::{DEPTH, RECORD, SEQUENCES};
 use ralf::config::Config;
@@ -39,9 +39,10 @@ pub struct LabelledSequence {
     pub tables: PlausibilityReader,
 }
 
-/// A run and the dataset that it labelled, as the truth about its labels may lie there: opened with the run's topics,
-/// and not yet compared with what was labelled. `None` where nothing or label files alone are, and where the dataset is
-/// of another format: labels may be compared with truth that is kept in another.
+/// A run and the dataset that it labelled, as the truth about its labels may lie there: opened with the run's topics
+/// and those of its settings that change values of detections, and not yet compared with what was labelled. `None`
+/// where nothing or label files alone are, and where the dataset is of another format: labels may be compared with
+/// truth that is kept in another.
 ///
 /// # Errors
 /// A `run.json` that can't be read; a dataset that can't be opened, at least as far as it was labelled: what can't be
@@ -64,7 +65,19 @@ pub fn labelled_recording(out: &Path, dataset: &Path) -> Result<Option<(Labelled
     let recording = open_with(dataset, format, topics)
         .and_then(Recording::whole)
         .or_else(|error| open_selected(dataset, format, topics, &names).map_err(|_| error))?;
+    let recording = with_altered_values(&run, recording)?;
     Ok(Some((run, recording)))
+}
+
+/// The recording as the run's settings correct it, where these change values of detections: earlier versions of the
+/// program knew scans by what that made of them. Other corrections say nothing of truth, and cost time.
+fn with_altered_values(run: &LabelledRun, recording: Recording) -> Result<Recording, DataError> {
+    let settings = run.settings();
+    if settings.corrections.values().any(SensorCorrection::alters_values) {
+        settings.correct_labelled(recording, |name| run.holds(name))
+    } else {
+        Ok(recording)
+    }
 }
 
 /// A file that isn't what was labelled.

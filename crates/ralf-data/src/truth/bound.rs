@@ -1,12 +1,11 @@
 //! Corrections of a recording's scans as these are now: what was said of another content is kept, told, and never
 //! applied.
 
-use super::content::scan_content;
+use super::content::HeldContent;
 use super::{Corrections, ScanId};
 use crate::error::DataError;
 use crate::read::{Recording, ros};
 use crate::result::LabelledRun;
-use ralf_corrections::ScanContent;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -45,10 +44,8 @@ pub fn lost_sequences(
 }
 
 /// What a scan of a recording holds; `None` of one that isn't there or can't be read.
-fn content_now(recording: &Recording, scan: &ScanId) -> Option<ScanContent> {
+fn content_now(recording: &Recording, scan: &ScanId) -> Option<HeldContent> {
     let reader = recording.sequences.iter().find(|reader| reader.sequence().name == scan.sequence)?;
     let at = scan.place_in(reader.sequence())?;
-    let measured = reader.radar_scan(at.radar, at.scan).ok()?;
-    let detections = u32::try_from(measured.len()).ok()?;
-    Some(ScanContent { detections, hash: Some(scan_content(&measured)) })
+    HeldContent::read(reader.as_ref(), at).ok()
 }

@@ -4,10 +4,11 @@ use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
+use crate::truth::content::HeldContent;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
 use ralf::label::UNLABELED;
-use ralf_corrections::{FILE, Reader, ScanContent, ScanKey, ScanLayer, read_layer};
+use ralf_corrections::{FILE, Reader, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -90,18 +91,19 @@ impl Corrections {
     }
 
     /// Keeps what was said of what the scans hold now: what was said of another content is [orphaned](Self::orphaned),
-    /// and counts no more. `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and `None`
-    /// of one that isn't there.
+    /// and counts no more. `content_of` tells what a scan holds (see [`HeldContent`]), and `None` of one that isn't
+    /// there.
     ///
     /// # Errors
     /// Those of `content_of`.
-    pub fn bound<E>(
+    pub fn bound<E, C: Into<HeldContent>>(
         mut self,
-        mut content_of: impl FnMut(&ScanId) -> Result<Option<ScanContent>, E>,
+        mut content_of: impl FnMut(&ScanId) -> Result<Option<C>, E>,
     ) -> Result<Self, E> {
         let mut bound = BTreeMap::new();
         for (scan, said) in self.scans {
-            let content = content_of(&scan)?;
+            let contents = || Ok(said.iter().map(|layer| layer.content).collect());
+            let content = content_of(&scan)?.map(|held| held.into().among(contents)).transpose()?;
             let held = content.and_then(|content| ScanLayer::find_in(&said, &content)).cloned();
             if said.len() > usize::from(held.is_some()) {
                 self.orphaned.push(scan.clone());
@@ -287,7 +289,7 @@ fn said(layer: &ScanLayer, file: Option<Vec<Label>>) -> Vec<Label> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_corrections::{ContentHash, Mark, SETTLE, ScanEdit, Store, Stroke, Who};
+    use ralf_corrections::{ContentHash, Mark, SETTLE, ScanContent, ScanEdit, Store, Stroke, Who};
 
     fn scan() -> ScanId {
         ScanId { sequence: "00".into(), radar: "front".into(), scan: 3 }
@@ -366,7 +368,10 @@ mod tests {
         assert_eq!(ids(&same.effective_labels(&scan(), machine.clone()).unwrap()), [99, 10, 99, 1]);
         assert!(same.orphaned().is_empty());
         let open = || Corrections::open(out.path()).unwrap();
-        for other in [open().bound(|_| content(2)).unwrap(), open().bound(|_| Ok::<_, ()>(None)).unwrap()] {
+        for other in [
+            open().bound(|_| content(2)).unwrap(),
+            open().bound(|_| Ok::<_, ()>(None::<ScanContent>)).unwrap(),
+        ] {
             assert_eq!(other.effective_labels(&scan(), machine.clone()).unwrap(), machine);
             assert_eq!((other.orphaned(), other.corrected_detections()), (&[scan()][..], 0));
             assert_eq!(other.truth(&scan(), None).unwrap(), None);

@@ -13,7 +13,7 @@ mod scan_id;
 pub use bound::lost_sequences;
 pub use causes::Causes;
 pub(crate) use causes::{cause_names, check_codes, names_of_causes};
-pub use content::scan_content;
+pub use content::{HeldContent, scan_content};
 pub use corrections::{Corrections, told_orphaned};
 pub use effective::effective_labels;
 pub use ground_truth::GroundTruth;

@@ -34,7 +34,7 @@ pub(crate) fn kinds(app: &App, sequence: &str, asked: &AskedKinds) -> Answer {
     let things = labels.things(reader)?;
     let observed = labels.observed(reader, &things, t_ns, half_of_the_machine())?;
     let asks = app.team.asks(reader.sequence());
-    let said = || Said::of(app, index, reader)?.answers(app, &things);
+    let said = || Said::of(app, reader.sequence())?.answers(app, &things);
     let question = by_all_that_is_said(said, |answers| {
         let mut found = things.kinds(&observed, answers, &passed);
         found.retain(|kind| kind.rows.iter().any(|row| asks(things.scan_of(*row))));

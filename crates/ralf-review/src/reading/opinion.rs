@@ -32,7 +32,7 @@ pub(crate) fn opinion(app: &App, sequence: &str, asked: &Around) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
-    let said = || Said::of(app, index, reader)?.answers(app, &things);
+    let said = || Said::of(app, reader.sequence())?.answers(app, &things);
     let opinion = by_all_that_is_said(said, |answers| learned(app, reader, &labels, &things, t_ns, answers));
     opinion.and_then(|opinion| json(&opinion))
 }

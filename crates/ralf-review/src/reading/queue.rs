@@ -17,7 +17,7 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
     let labels = app.labels(index)?;
     let needs = labels.needs(reader)?;
     let needs = queued(app, reader, &needs);
-    let said = Said::of(app, index, reader)?;
+    let said = Said::of(app, reader.sequence())?;
     let left: Vec<f64> = if said.holding.is_empty() {
         // While nobody has said anything the machine's own doubt is what is left: no scan is read for that.
         needs.iter().map(|need| need.doubts.expected_errors).collect()
@@ -62,7 +62,7 @@ pub(crate) fn progress(app: &App, sequence: &str) -> Result<Value, ApiError> {
     let (index, reader) = app.sequence(sequence)?;
     let needs = app.labels(index)?.needs(reader)?;
     let keys = keys(reader, &queued(app, reader, &needs));
-    Ok(Said::of(app, index, reader)?.progress(&keys))
+    Ok(Said::of(app, reader.sequence())?.progress(&keys))
 }
 
 fn key(sequence: &Sequence, ScanIndex { radar, scan }: ScanIndex) -> RadarScanKey {

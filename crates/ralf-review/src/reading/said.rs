@@ -3,11 +3,12 @@
 use crate::app::App;
 use crate::http::ApiError;
 use ralf::label::truth_of;
+use ralf::sensors::Sequence;
 use ralf_corrections::{ScanSummary, ScanVersion};
+use ralf_data::Label;
 use ralf_data::result::RadarScanKey;
 use ralf_data::things::{Answer, SequenceThings};
 use ralf_data::truth::effective_labels;
-use ralf_data::{Label, ScanId, SequenceReader};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -21,13 +22,11 @@ pub(super) struct Said {
 }
 
 impl Said {
-    pub(super) fn of(app: &App, index: usize, reader: &dyn SequenceReader) -> Result<Self, ApiError> {
-        let sequence = reader.sequence();
+    pub(super) fn of(app: &App, sequence: &Sequence) -> Result<Self, ApiError> {
         let mut said = Self::default();
         for summary in app.said(|store| store.summaries(&sequence.name))? {
-            let there = ScanId::from(summary.key.clone()).place_in(sequence);
             let key = RadarScanKey::new(&summary.key.radar, summary.key.scan as usize);
-            if app.contents.holds(reader, there.map(|at| (index, at)), &summary) {
+            if app.holds(&summary)? {
                 said.holding.insert(key, summary);
             } else {
                 *said.orphaned.entry(key).or_default() +=
@@ -59,9 +58,7 @@ impl Said {
         for summary in self.holding.values() {
             let key = &summary.key;
             let place = app.scan(&key.sequence, &key.radar, key.scan as usize)?;
-            let Some(content) = app.contents.known(place.reader, (place.sequence, place.scan)) else {
-                continue;
-            };
+            let Some(content) = app.known_content(&place)? else { continue };
             let rows = things.rows_of(place.scan);
             let said = app.said(|store| store.scan(&ScanVersion { key: place.key, content }))?;
             let accepted = said.review.as_ref().map(|mark| mark.accepted.as_slice());

@@ -39,7 +39,7 @@ fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let sequence = reader.sequence();
-    let answers = Said::of(app, index, reader)?.answers(app, &things)?;
+    let answers = Said::of(app, reader.sequence())?.answers(app, &things)?;
     let doubtful = things.doubtful(&answers, MOST, app.team.asks(sequence));
     let header = Map::from_iter([
         ("run".to_owned(), json!(labels.run())),

@@ -2,7 +2,7 @@
 //! other detections.
 
 use crate::support::{Out, RADAR, SEQUENCE, Serving, label, recording, stroke};
-use ralf_corrections::FILE;
+use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
 use ralf_data::Settings;
 use ralf_data::{Corrections, open, scan_content};
 use serde_json::{Value, json};
@@ -152,6 +152,43 @@ fn copy(from: &std::path::Path, to: &std::path::Path) {
         let (from, to) = (entry.as_ref().unwrap().path(), to.join(entry.unwrap().file_name()));
         if from.is_dir() { copy(&from, &to) } else { fs::copy(from, to).map(drop).unwrap() }
     }
+}
+
+#[test]
+fn corrections_are_found_whatever_settings_make_of_values_and_those_of_earlier_versions_too() {
+    let out = Out::new();
+    let settings = Settings::from_toml("", &[&format!("corrections.{RADAR}.doppler_factor=-1")]).unwrap();
+    let altered = || settings.correct(recording()).unwrap();
+    let serve = |recording| Serving::of_recording(recording, out.path(), "127.0.0.1", "ada").unwrap();
+    let server = serve(altered());
+    server.stroke(1, 0, Some(10), &[3]).json();
+    server.end();
+    assert_eq!(Corrections::of_recording(out.path(), &recording()).unwrap().corrected_detections(), 1);
+    let server = serve(recording());
+    assert_eq!(server.stroke(1, 1, Some(10), &[4]).json()["changed"], 1);
+    server.end();
+    // As if an earlier version had written it.
+    let content = scan_content(&altered().sequences[0].radar_scan(0, 2).unwrap());
+    let detections = recording().sequences[0].radar_scan(0, 2).unwrap().len() as u32;
+    let edit = ScanEdit {
+        radar: RADAR.into(),
+        scan: 2,
+        detections,
+        content: Some(content),
+        base: 0,
+        points: vec![5],
+    };
+    let earlier = Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence(SEQUENCE) };
+    Store::open(&out.path().join(FILE)).unwrap().apply(&earlier, &Who::named("ada")).unwrap();
+    let server = serve(altered());
+    assert_eq!(server.table(1).u8("corrected").iter().sum::<u8>(), 2);
+    assert_eq!(server.table(2).header["content"], json!(content.to_string()));
+    assert_eq!(
+        server.stroke(2, 1, Some(10), &[6]).json()["scans"][0]["corrections"],
+        json!([[5, 10], [6, 10]])
+    );
+    let progress = server.of_sequence("queue").json()["progress"].clone();
+    assert_eq!((&progress["orphaned_scans"], &progress["corrected_detections"]), (&json!(0), &json!(4)));
 }
 
 #[test]

@@ -166,6 +166,11 @@ impl SequenceReader for Corrected {
         Ok(rolling.map(|rolling| self.with_lidar_corrected(lidar, rolling)))
     }
 
+    fn alters_values(&self, radar: usize) -> bool {
+        let own = self.radars.get(radar).copied().flatten();
+        own.is_some_and(|correction| correction.alters_values()) || self.inner.alters_values(radar)
+    }
+
     fn motion_source(&self) -> MotionSource {
         self.source
     }

@@ -36,6 +36,12 @@ pub(crate) fn derives_doppler(fields: &[String]) -> bool {
     !derived(fields).is_empty()
 }
 
+/// A radar's fields with the range rates that derive from them.
+pub(super) fn with_derived(fields: &[String]) -> Vec<String> {
+    let rates = derived(fields).into_iter().map(|(name, _)| name.to_owned());
+    fields.iter().cloned().chain(rates).collect()
+}
+
 /// Every field of a radar's scan under its own name, and those range rates that derive from them and are wanted: in
 /// space where the radar measures elevation, else in its plane.
 pub(super) fn radar_columns(

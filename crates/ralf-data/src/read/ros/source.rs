@@ -1,6 +1,6 @@
 //! A recording as a source: measurements typed.
 
-use super::cloud::{lidar_scan, radar_columns};
+use super::cloud::{derives_doppler, lidar_scan, radar_columns, with_derived};
 use super::messages::Messages;
 use super::motion::motion;
 use super::mounting::vehicle_frame;
@@ -13,7 +13,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::measurement;
 use ralf::sensors::{
-    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+    CameraImage, DepthImage, DepthOutput, LidarScan, Radar, RadarScan, Sequence, Source, SourceError,
 };
 use ralf_ros::container::Container;
 use std::any::Any;
@@ -73,6 +73,26 @@ impl Drive {
         Ok(Self { sequence, origin, radars, lidars, clocks, cameras, warnings, lost, absent })
     }
 
+    /// A scan of a radar as its message has it, with the range rates that derive from it and the model names.
+    fn measured(&self, (radar, scan): (usize, usize), model: &Radar) -> Result<RadarScan, SourceError> {
+        let message = measurement("radar", &self.radars, radar, scan)?;
+        let is_wanted = |name: &str| model.column(name).is_some();
+        let columns = radar_columns(&self.origin.messages, message, model.elevation, is_wanted)?;
+        let t_ns = self.sequence.times.radars[radar][scan];
+        if columns.rows == 0 {
+            // Some drivers leave the fields out where nothing was detected.
+            return Ok(RadarScan::new(model, t_ns, vec![Vec::new(); model.fields.len()])?);
+        }
+        if columns.names != model.fields {
+            let (expected, found) = (model.fields.join(", "), columns.names.join(", "));
+            let expected = format!("those of the first scan, {expected}");
+            return Err(self.origin.messages.error(message, "fields", expected, found).into());
+        }
+        let scan = RadarScan::new(model, t_ns, columns.values);
+        Ok(scan
+            .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)
+    }
+
     /// A LiDAR's scan as its message has it.
     fn recorded(&self, lidar: usize, scan: usize) -> Result<LidarScan, DataError> {
         let message = measurement("lidar", &self.lidars, lidar, scan)?;
@@ -93,23 +113,9 @@ impl Source for Drive {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let message = measurement("radar", &self.radars, radar, scan)?;
-        let model = &self.sequence.rig.radars[radar];
-        let is_wanted = |name: &str| model.column(name).is_some();
-        let columns = radar_columns(&self.origin.messages, message, model.elevation, is_wanted)?;
-        let t_ns = self.sequence.times.radars[radar][scan];
-        if columns.rows == 0 {
-            // Some drivers leave the fields out where nothing was detected.
-            return Ok(RadarScan::new(model, t_ns, vec![Vec::new(); model.fields.len()])?);
-        }
-        if columns.names != model.fields {
-            let (expected, found) = (model.fields.join(", "), columns.names.join(", "));
-            let expected = format!("those of the first scan, {expected}");
-            return Err(self.origin.messages.error(message, "fields", expected, found).into());
-        }
-        let scan = RadarScan::new(model, t_ns, columns.values);
-        Ok(scan
-            .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)
+        let model = self.sequence.rig.radars.get(radar);
+        let none = DataError::NoMeasurement { kind: "radar", sensor: radar, index: scan };
+        self.measured((radar, scan), model.ok_or(none)?)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
@@ -153,6 +159,20 @@ impl SequenceReader for Drive {
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
         let is_rolling = self.clocks.get(lidar).is_some_and(|clock| clock.is_rolling);
         Ok(if is_rolling { Some(self.recorded(lidar, scan)?) } else { None })
+    }
+
+    /// Whether range rates are derived is a setting, and no other content.
+    fn delivered(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        if !self.alters_values(radar) {
+            return self.radar_scan(radar, scan);
+        }
+        let model = &self.sequence.rig.radars[radar];
+        let whole = Radar { fields: with_derived(&model.fields), ..model.clone() };
+        self.measured((radar, scan), &whole)
+    }
+
+    fn alters_values(&self, radar: usize) -> bool {
+        self.sequence.rig.radars.get(radar).is_some_and(|radar| derives_doppler(&radar.fields))
     }
 
     fn origin(&self) -> Option<&dyn Any> {

@@ -39,6 +39,25 @@ fn radars_keep_their_fields_and_gain_range_rates() {
     assert_eq!((scan.columns[3].as_slice(), scan.spherical[0].elevation), ([-3.0; 2].as_slice(), 0.25));
 }
 
+/// Corrections are known again by that, whichever way somebody labels.
+#[test]
+fn whether_range_rates_are_derived_is_no_other_content() {
+    let (_folder, path) = Drive::default().write();
+    let derived = open_file(&path, TABLE).unwrap();
+    let not = TABLE.replace("model = 'ars408-21'", "model = 'ars408-21', derive_doppler = false");
+    let plain = open_file(&path, &not).unwrap();
+    let radars = |drive: &dyn SequenceReader| [0, 1].map(|radar| drive.alters_values(radar));
+    assert_eq!((radars(derived.as_ref()), radars(plain.as_ref())), ([false; 2], [true, false]));
+    for scan in 0..3 {
+        let (read, other) = (derived.radar_scan(0, scan).unwrap(), plain.radar_scan(0, scan).unwrap());
+        assert_ne!(read.columns, other.columns);
+        for drive in [&derived, &plain] {
+            assert_eq!(drive.delivered(0, scan).unwrap().columns, read.columns, "scan {scan}");
+        }
+    }
+    assert_eq!(plain.delivered(1, 0).unwrap().columns, derived.radar_scan(1, 0).unwrap().columns);
+}
+
 #[test]
 fn sensors_hang_on_the_tree_of_frames() {
     let (_folder, path) = Drive::default().write();
