@@ -43,8 +43,7 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     strict: bool,
     /// Write corrections as settings that `ralf label --config` takes; nothing is corrected before. To refine
-    /// them takes several times as long as the check alone, up to minutes for several drives. A file that was edited is not
-    /// replaced
+    /// them takes several times as long as the check alone. A file that was edited is not replaced
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     /// Draw velocities and overlaps of each radar (PNG)
