@@ -46,6 +46,7 @@ pub use disk::edited::{refuse_edited, write_editable};
 pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
+pub use disk::real_path::real_path;
 pub use error::DataError;
 pub use frames::ScanIndex;
 pub use judge::{Balance, Balances, Comparison};

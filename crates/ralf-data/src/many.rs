@@ -19,7 +19,7 @@ use crate::run::{
     Earlier, LabelRun, Observer, Outcome, Planned, Stretch, StretchOutcome, check_output_folder,
 };
 use crate::settings::Settings;
-use crate::tree::RECORD;
+use crate::tree::{PLAN, RECORD};
 use crate::views::{Lacking, lacking, with_stored};
 use ralf::config::Method;
 use ralf::learned::Model;
@@ -27,9 +27,6 @@ use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-
-/// In the output folder: the [`Job`] that was planned.
-const PLAN: &str = "plan.json";
 
 /// How a recording is labelled, and where to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

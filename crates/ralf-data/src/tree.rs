@@ -10,6 +10,14 @@ pub const SEQUENCES: &str = "sequences";
 pub const RECORD: &str = "run.json";
 /// The folder beside the sequences that holds what a run keeps until the record tells of it.
 pub(crate) const UNFINISHED: &str = ".ralf-run";
+/// What tells who labels what, in an output folder.
+pub(crate) const TEAM: &str = "team.toml";
+/// The folder of second labels in an output folder.
+pub(crate) const SECOND: &str = "second";
+/// What tells of an output folder's run on many machines.
+pub(crate) const PLAN: &str = "plan.json";
+/// What labels have beside their sequences, and no recording has.
+pub(crate) const MARKS_OF_LABELS: [&str; 3] = [RECORD, UNFINISHED, ralf_corrections::FILE];
 /// The file in a sequence's folder that tells its sensors.
 pub const SENSORS: &str = "sequence.toml";
 /// The file in a sequence's folder that tells speeds and yaw rates.

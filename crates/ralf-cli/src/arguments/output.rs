@@ -3,7 +3,8 @@
 use crate::outcome::UsageError;
 use anyhow::Context;
 use ralf::learned::Model;
-use ralf_data::{DataError, RECORD, SENSORS, SEQUENCES};
+use ralf_data::read::refuse_own_places;
+use ralf_data::{DataError, RECORD, SENSORS, SEQUENCES, real_path};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -12,6 +13,8 @@ use std::path::Path;
 const PAGES: [&str; 2] = ["png", "html"];
 /// What a page begins with.
 const PAGE: &[u8] = b"<!DOCTYPE html>";
+/// What a picture begins with (PNG).
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// What an SQLite database begins with.
 const SQLITE: &[u8; 16] = b"SQLite format 3\0";
 
@@ -51,20 +54,53 @@ fn would_be_lost(argument: &str, file: &Path, expected: &str, found: &str) -> an
 /// The same of a page: any text but a page is kept, such as settings.
 pub(crate) fn check_page(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
     check_output(argument, file, read_only)?;
-    let mut head = Vec::new();
-    let read = File::open(file).and_then(|file| file.take(PAGE.len() as u64).read_to_end(&mut head));
-    // What can't be read is replaced all the same where it may be.
-    if read.is_err() || head.is_empty() || head.eq_ignore_ascii_case(PAGE) {
-        return Ok(());
-    }
-    Err(would_be_lost(argument, file, "nothing yet, or a page", "another file"))
+    refuse_other_beginning(argument, file, PAGE, "nothing yet, or a page")
 }
 
-/// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
-/// a device, or a database, which no command writes there; and where a file of one of the folders lies that are only
-/// read, a recording or results, or of any other recording in the own layout or results of `ralf label`. Pictures and
-/// pages directly in such a folder are no part of it.
+/// The same of a picture: all but a picture is kept. A name that says that it is of another format is refused, too.
+pub(crate) fn check_picture(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+    check_output(argument, file, read_only)?;
+    if file.extension().is_some_and(|ending| !ending.eq_ignore_ascii_case("png")) {
+        let expected = "expected a name that ends in .png";
+        return Err(UsageError(format!("{argument}: {expected}, found {}", file.display())).into());
+    }
+    refuse_other_beginning(argument, file, PNG, "nothing yet, or a picture (PNG)")
+}
+
+/// Refuses two places that are one: of two files only the later would be left.
+pub(crate) fn refuse_same(arguments: [&str; 2], files: [&Path; 2]) -> Result<(), UsageError> {
+    let [first, second] = files.map(real_path);
+    if first != second {
+        return Ok(());
+    }
+    let [earlier, later] = arguments;
+    let found = files[0].display();
+    Err(UsageError(format!("{earlier} and {later}: expected two files, found {found} for both")))
+}
+
+/// Refuses a file that begins otherwise than those that a command writes.
+fn refuse_other_beginning(argument: &str, file: &Path, begin: &[u8], expected: &str) -> anyhow::Result<()> {
+    let mut head = Vec::new();
+    let read = File::open(file).and_then(|file| file.take(begin.len() as u64).read_to_end(&mut head));
+    // What can't be read is replaced all the same where it may be.
+    if read.is_err() || head.is_empty() || head.eq_ignore_ascii_case(begin) {
+        return Ok(());
+    }
+    Err(would_be_lost(argument, file, expected, "another file"))
+}
+
+/// Refuses a place for a file, named by its argument, that belongs to a recording in the own layout or to results,
+/// whether something lies there or not; and what is [no good](refuse_loss) of what lies there.
 fn refuse_place(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
+    refuse_loss(argument, file, read_only)?;
+    refuse_own_places(file).map_err(|error| UsageError(format!("{argument}: {error}")))
+}
+
+/// Refuses a place where something lies that is no regular file, such as a folder or a device, or a database, which no
+/// command writes there; and where a file of one of the folders lies that are only read, a recording or results, or of
+/// any other recording in the own layout or results of `ralf label`. Pictures and pages directly in such a folder are
+/// no part of it.
+fn refuse_loss(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
     let Ok(found) = std::fs::metadata(file) else { return Ok(()) };
     let refuse = |expected: &str, found: &str| {
         UsageError(format!("{argument}: expected {expected}, found {found} {}", file.display()))
@@ -141,8 +177,7 @@ mod tests {
         let files =
             ["sequence.toml", "odometry.csv", "front/000000.png"].map(|name| format!("{sequence}/{name}"));
         let results = ["run.json", "sequences/00/plausibility.parquet"].map(|name| format!("{run}/{name}"));
-        let own = ["ralf.toml", "city/ralf.toml", "city/sequences/00/scan.png", "out/found.toml"]
-            .map(str::to_owned);
+        let own = ["ralf.toml", "city/ralf.toml", "city/scan.png", "out/found.toml"].map(str::to_owned);
         for name in files.iter().chain(&results).chain(&own) {
             fs::create_dir_all(place(name).parent().unwrap()).unwrap();
             fs::write(place(name), "x").unwrap();
@@ -152,6 +187,12 @@ mod tests {
             assert!(check(name).is_err_and(|error| error.contains("nothing is lost")), "{name}");
         }
         own.iter().for_each(|name| assert_eq!(check(name), Ok(()), "{name}"));
+        // What isn't there yet would be taken for a part of them.
+        let new =
+            ["city/sequences/00/front/000099.png", "city/sequences/00/second.toml", "out/corrections.sqlite"];
+        for name in new.iter().chain(&["out/team.toml", "out/sequences/page.html"]) {
+            assert!(check(name).unwrap_err().starts_with("--output: "), "{name}");
+        }
     }
 
     #[test]
@@ -166,6 +207,33 @@ mod tests {
             assert_eq!(check(name), Ok(()), "{name}");
         }
         assert!(check("tuned.toml").unwrap_err().contains("tuned.toml: expected nothing yet, or a page"));
+    }
+
+    #[test]
+    fn a_picture_takes_the_place_of_a_picture_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        fs::write(place("scan.png"), [PNG, b"..."].concat()).unwrap();
+        fs::write(place("Makefile"), "all:").unwrap();
+        fs::write(place("notes.png"), "mine").unwrap();
+        let check =
+            |name: &str| check_picture("--output", &place(name), &[]).map_err(|error| error.to_string());
+        for name in ["scan.png", "new.PNG", "new"] {
+            assert_eq!(check(name), Ok(()), "{name}");
+        }
+        for name in ["Makefile", "notes.png"] {
+            assert!(check(name).unwrap_err().contains("expected nothing yet, or a picture"), "{name}");
+        }
+        assert!(check("new.toml").unwrap_err().contains("expected a name that ends in .png"));
+    }
+
+    #[test]
+    fn two_files_have_two_places() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("a")).unwrap();
+        let [file, other, again] = ["new", "newer", "a/../new"].map(|name| folder.path().join(name));
+        let same = |second: &Path| refuse_same(["--write", "--output"], [&file, second]).is_err();
+        assert!(same(&again) && same(&file) && !same(&other));
     }
 
     #[test]

@@ -4,7 +4,7 @@ mod fixes;
 pub(crate) mod page;
 mod picture;
 
-use crate::arguments::{DatasetArgs, SettingsArgs, check_editable, check_output};
+use crate::arguments::{DatasetArgs, SettingsArgs, check_editable, check_picture, refuse_same};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
@@ -46,7 +46,7 @@ pub(crate) struct CheckArgs {
     /// them takes several times as long as the check alone. A file that was edited is not replaced
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
-    /// Draw velocities and overlaps of each radar (PNG)
+    /// Draw velocities and overlaps of each radar (PNG). Only a picture is replaced
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Everything that was judged, not only what is doubted
@@ -109,6 +109,12 @@ impl CheckArgs {
         if let Some(file) = &self.write {
             check_editable("--write", file, &[recording])?;
         }
-        self.output.as_deref().map_or(Ok(()), |file| check_output("--output", file, &[recording]))
+        if let Some(file) = &self.output {
+            check_picture("--output", file, &[recording])?;
+        }
+        if let (Some(settings), Some(picture)) = (&self.write, &self.output) {
+            refuse_same(["--write", "--output"], [settings, picture])?;
+        }
+        Ok(())
     }
 }

@@ -126,3 +126,62 @@ fn nothing_that_is_read_is_written_over() {
         ralf(["report", path, out, "-o", &page]).exits(0);
     }
 }
+
+#[test]
+fn nothing_new_is_written_where_it_would_be_a_part_of_a_recording_or_of_results() {
+    let dataset = Dataset::new();
+    label(&dataset).exits(0);
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    let (recorded, labelled) = (tree(path), tree(out));
+    let inside = |name: &str| dataset.file(name).to_string_lossy().into_owned();
+    let [scan, settings] = ["radar_front/000099.bin", "sequence2.toml"].map(inside);
+    let [picture, page] = ["camera_front/000099.png", "lidar_top/000099.html"].map(inside);
+    let [database, team] = ["corrections.sqlite", "team.toml"].map(|name| format!("{out}/{name}"));
+    let outside = "expected a place outside recordings";
+    ralf(["plot", path, out, "--scan", "1", "-o", &picture]).exits(2).says([outside]);
+    ralf(["report", path, out, "-o", &page]).exits(2).says([outside]);
+    ralf(["check", path, "--write", &scan]).exits(2).says([outside]);
+    ralf(["tune", path, "--train", "00", "--cross-validate", "-o", &settings]).exits(2);
+    ralf(["tune", path, "--train", "00", "--test", "01", "-o", &settings]).exits(2).says([outside]);
+    ralf(["learn", path, "-o", &database]).exits(2).says(["`corrections.sqlite` of", "which is ralf's own"]);
+    ralf(["check", path, "--write", &team]).exits(2).says(["`team.toml` of", "which is ralf's own"]);
+    for name in ["sequences/export", "second"] {
+        let export = ["export", path, out, "--to", "npz", "-o", &format!("{out}/{name}")];
+        ralf(export).exits(1).says(["which is ralf's own"]);
+    }
+    assert!(tree(path) == recorded && tree(out) == labelled);
+    // Beside what is the program's own there is room.
+    ralf(["export", path, out, "--to", "npz", "-o", &format!("{out}/export")]).exits(0);
+    ralf(["plot", path, out, "--scan", "1", "-o", &format!("{out}/scan.png")]).exits(0);
+}
+
+#[test]
+fn a_picture_replaces_nothing_but_a_picture() {
+    let dataset = Dataset::new();
+    label(&dataset).exits(0);
+    let [settings, makefile, new, picture] =
+        ["ralf.toml", "Makefile", "both.toml", "scan.png"].map(|name| dataset.beside(name));
+    fs::write(&settings, "[lidar]\n").unwrap();
+    fs::write(&makefile, "all:\n").unwrap();
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    for (file, told) in
+        [(&settings, "ends in .png"), (&makefile, "which would be lost"), (&new, "ends in .png")]
+    {
+        ralf(["check", path, "-o", file]).exits(2).ends_with_error(["--output: ", file, told]);
+        ralf(["plot", path, out, "--scan", "1", "-o", file]).exits(2).ends_with_error([
+            "--output: ",
+            file,
+            told,
+        ]);
+    }
+    let both = dataset.beside("both.png");
+    ralf(["check", path, "--write", &both, "-o", &both])
+        .exits(2)
+        .says(["--write and --output: expected two files"]);
+    assert!(!Path::new(&both).exists() && !Path::new(&new).exists());
+    assert_eq!(fs::read_to_string(&makefile).unwrap(), "all:\n");
+    for _ in 0..2 {
+        ralf(["plot", path, out, "--scan", "1", "-o", &picture]).exits(0);
+        ralf(["check", path, "-o", &picture]).exits(0);
+    }
+}

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 const MOST_LINKS: u32 = 40;
 
 /// The path with all links followed, those that lead to nothing yet, too.
-pub(crate) fn real_path(path: &Path) -> PathBuf {
+pub fn real_path(path: &Path) -> PathBuf {
     followed(path, MOST_LINKS)
 }
 

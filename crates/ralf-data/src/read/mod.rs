@@ -40,5 +40,5 @@ pub use incomplete::{Incomplete, Lost};
 pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};
 pub use open::{formats, open, open_selected, open_with};
-pub use outside::refuse_to_write_into;
+pub use outside::{refuse_own_places, refuse_to_write_into};
 pub use recording::{Recording, SequenceReader, TruthLabels};

@@ -4,6 +4,7 @@ use super::person::{alike, person};
 use crate::disk::files::{self, write_whole};
 use crate::error::DataError;
 use crate::result::{Component, SequenceRecord};
+use crate::tree::TEAM as FILE;
 use crate::truth::ScanId;
 use ralf_files::Kind;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -11,8 +12,6 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The file's name in an output folder.
-const FILE: &str = "team.toml";
 /// What stands above.
 const HEAD: &str = "# Who labels what, as `ralf assign` dealt it; change it as you like.\n";
 

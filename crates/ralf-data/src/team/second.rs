@@ -4,10 +4,9 @@ use super::person::person;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::refuse_links_on_way;
+use crate::tree::SECOND as FOLDER;
 use std::path::{Path, PathBuf};
 
-/// The folder below an output folder.
-const FOLDER: &str = "second";
 /// The ending of files in it.
 const ENDING: &str = ".sqlite";
 

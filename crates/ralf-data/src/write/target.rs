@@ -4,13 +4,9 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::layout;
 use crate::read::open::recognised;
-use crate::read::outside::refuse_among_sequences;
-use crate::tree::{RECORD, UNFINISHED};
+use crate::read::outside::refuse_own_places;
+use crate::tree::MARKS_OF_LABELS;
 use std::path::Path;
-
-/// What labels have beside their sequences, and no recording has. Labels look like a recording in the own layout, so
-/// these are asked for first.
-const MARKS_OF_LABELS: [&str; 3] = [RECORD, UNFINISHED, ralf_corrections::FILE];
 
 /// Refuses a part of a recording, a folder of labels, and what is a recording of another format than the own layout:
 /// with `sequences` in it, it would be taken for one in the own layout.
@@ -19,7 +15,8 @@ pub(super) fn refuse_other_folder(dataset: &Path) -> Result<(), DataError> {
         let expected = "a recording in the own layout, or nothing yet";
         Err(DataError::content(dataset, "output", expected, found))
     };
-    refuse_among_sequences(dataset)?;
+    refuse_own_places(dataset)?;
+    // Labels look like a recording in the own layout, so these are asked for first.
     for mark in MARKS_OF_LABELS {
         if files::exists(&dataset.join(mark))? {
             return refuse(format!("labels, with {mark}"));

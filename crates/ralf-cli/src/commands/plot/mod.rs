@@ -2,15 +2,15 @@
 
 mod camera;
 
-use crate::arguments::{ChangedArgs, DatasetArgs, check_output, the_only};
-use crate::outcome::{Outcome, UsageError};
+use crate::arguments::{ChangedArgs, DatasetArgs, check_picture, the_only};
+use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader};
 use ralf_plot::Extent;
 use ralf_report::{AsFarAsRead, Detections, Pictures};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Width of the picture of a scan, and of an overview's half, pixels.
 const WIDTHS: [u32; 2] = [1600, 1400];
@@ -60,15 +60,14 @@ pub(crate) struct PlotArgs {
     /// Take depth images from this folder; if not given, from where the labels were made with them
     #[arg(long, value_name = "FOLDER", requires = "camera")]
     depth: Option<PathBuf>,
-    /// The picture (PNG)
+    /// The picture (PNG); only another picture is replaced
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
-    check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
-    refuse_other_endings(&arguments.output)?;
+    check_picture("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
     let mut recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let run = LabelledRun::open(&arguments.labels)?;
     leave_out_unlabelled(&mut recording, &run);
@@ -108,16 +107,5 @@ fn leave_out_unlabelled(recording: &mut Recording, run: &LabelledRun) {
         |reader: &dyn SequenceReader| labelled.iter().any(|found| found.name == reader.sequence().name);
     if recording.sequences.iter().any(|reader| is_labelled(reader.as_ref())) {
         recording.sequences.retain(|reader| is_labelled(reader.as_ref()));
-    }
-}
-
-/// Refuses a name that says that the picture is of another format.
-fn refuse_other_endings(file: &Path) -> Result<(), UsageError> {
-    match file.extension() {
-        Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            let found = file.display();
-            Err(UsageError(format!("--output: expected a name that ends in .png, found {found}")))
-        }
-        _ => Ok(()),
     }
 }

@@ -6,7 +6,7 @@ use crate::disk::alone::alone;
 use crate::disk::files::{self, beside};
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::read::outside::refuse_among_sequences;
+use crate::read::outside::refuse_own_places;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::WriterLock;
 use crate::write::export::options::Sensors;
@@ -39,7 +39,7 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<RosWritten, DataError> {
-    refuse_among_sequences(file)?;
+    refuse_own_places(file)?;
     check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
