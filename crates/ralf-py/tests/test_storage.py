@@ -134,6 +134,50 @@ def test_what_was_said_of_a_copy_is_not_replaced(run, tmp_path):
     assert said(copy / "corrections.sqlite") == ["a", "b", "here"]
 
 
+def test_what_others_said_in_a_store_is_not_replaced(run, tmp_path):
+    url = f"file://{tmp_path}/store/city"
+    shutil.copytree(run.out, tmp_path / "city")
+    say(tmp_path / "city/corrections.sqlite", "a").close()
+    storage.publish(tmp_path / "city", url)
+    ours, others = (storage.stage(url, tmp_path / name) for name in ("ours", "others"))
+    say(ours / "corrections.sqlite", "by us").close()
+    say(others / "corrections.sqlite", "by others").close()
+    storage.publish(others, url)
+    before = tree(tmp_path / "store")
+    for place in (ours, tmp_path / "city"):
+        with pytest.raises(ValueError, match=r"found corrections\.sqlite in which others may have said something since"):
+            storage.publish(place, url)
+    assert tree(tmp_path / "store") == before
+    assert said(tmp_path / "store/city/corrections.sqlite") == ["a", "by others"]
+    # What one has published oneself may be published anew.
+    say(others / "corrections.sqlite", "more").close()
+    storage.publish(others, url)
+    assert said(tmp_path / "store/city/corrections.sqlite") == ["a", "by others", "more"]
+    storage.publish(ours, f"file://{tmp_path}/elsewhere")
+    assert said(tmp_path / "elsewhere/corrections.sqlite") == ["a", "by us"]
+
+
+def test_what_was_published_may_be_staged_again(run, tmp_path):
+    url = f"file://{tmp_path}/store/city"
+    shutil.copytree(run.out, tmp_path / "city")
+    say(tmp_path / "city/corrections.sqlite", "a").close()
+    storage.publish(tmp_path / "city", url)
+    copy = storage.stage(url, tmp_path / "copy")
+    for what, open_ in (("b", False), ("c", True)):
+        # Also where the review ends only after it was published.
+        opened = say(copy / "corrections.sqlite", what)
+        if not open_:
+            opened.close()
+        storage.publish(copy, url)
+        opened.close()
+        storage.stage(url, tmp_path / "copy")
+    assert said(copy / "corrections.sqlite") == ["a", "b", "c"]
+    say(copy / "corrections.sqlite", "d").close()
+    storage.publish(tmp_path / "city", f"file://{tmp_path}/other/city")
+    with pytest.raises(ValueError, match="found what was said here since"):
+        storage.stage(f"file://{tmp_path}/other/city", tmp_path / "copy")
+
+
 def test_a_url_that_leads_to_nothing_is_named(tmp_path):
     for url in (f"file://{tmp_path}/nosuch/city", "memory://nosuch/city"):
         with pytest.raises(FileNotFoundError, match=f"{url}: expected a recording or results, found nothing"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import sqlite3
@@ -34,6 +35,9 @@ _Files = dict[PurePosixPath, tuple[str, dict[str, Any]]]
 _Stamps = dict[str, list[int]]
 """Size and time of files that were put somewhere, by their places."""
 
+_Known = dict[str, list[str]]
+"""By the place of a database: hashes of what was staged there, and of what was published from there since."""
+
 
 def stage(url: str, folder: str | os.PathLike[str]) -> Path:
     """Copy a recording, or results, into a folder of this machine. Returns where it lies.
@@ -45,23 +49,29 @@ def stage(url: str, folder: str | os.PathLike[str]) -> Path:
 
     Raises `FileNotFoundError` where the URL leads to nothing. A database of what people said is refused with a
     `ValueError`, before anything is copied, where it has a journal in the store, which is half of it at most, and where
-    the store's would replace one in which something was said on this machine since.
+    the store's would replace one in which something was said on this machine since it was staged or published; the
+    latter is known by a hidden file, `.NAME.known`.
     """
     store, root = _opened(url)
     place = Path(folder) / PurePosixPath(root).name
     wanted = _found(url, store, root)
     record = Path(folder) / f".{place.name}.staged"
-    put: _Stamps = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {}
-    _refuse_to_lose(place, wanted, put)
+    put: _Stamps = _read(record)
+    known: _Known = _read(_known_file(place))
+    _refuse_to_lose(place, wanted, put, known)
     record.parent.mkdir(parents=True, exist_ok=True)
     try:
         for gone in [inside for inside in put if PurePosixPath(inside) not in wanted]:
             _take_away(place, gone, put.pop(gone))
         for inside, (name, told) in wanted.items():
-            _fetch(store, name, place / inside, told)
+            fetched = _fetch(store, name, place / inside, told)
             put[str(inside)] = _stamp(place / inside)
+            if fetched and inside.suffix == DATABASE:
+                known[str(inside)] = [_hash(place / inside)]
     finally:
         _write(record, json.dumps(put))
+        if known:
+            _write(_known_file(place), json.dumps(known))
     warn_of(_others(url, place, wanted))
     return place
 
@@ -71,7 +81,9 @@ def publish(out: str | os.PathLike[str], url: str) -> None:
 
     What people said is copied as SQLite knows it at that moment, a review that goes on among it, into one file without
     a journal; journals that lie beside it in the store are removed. An `out` without the record of a finished labelling
-    is refused with a `RalfError`, a damaged database with a `ValueError`, both before the store is touched.
+    is refused with a `RalfError`; with a `ValueError` a damaged database, and one in the place of which the store has
+    another, in which somebody else may have said something: neither staged here nor published from here. All of it
+    before the store is touched. What was published is known by a hidden file beside `out`, `.NAME.known`.
     """
     place = Path(out)
     _ralf.record(place)
@@ -84,6 +96,9 @@ def publish(out: str | os.PathLike[str], url: str) -> None:
             if file.suffix == DATABASE
         }
         store, root = _opened(url)
+        hashes = {file: _hash(copy) for file, copy in copies.items()}
+        known: _Known = _read(_known_file(place))
+        _refuse_to_replace(url, place, hashes, known, Path(scratch) / "found")
         _remove(store, f"{root}/{MARKER}")
         for file in sorted(results, key=lambda file: file == Path(MARKER)):
             target = f"{root}/{file.as_posix()}"
@@ -91,6 +106,9 @@ def publish(out: str | os.PathLike[str], url: str) -> None:
             if file in copies:
                 for journal in JOURNALS:
                     _remove(store, target + journal)
+                known.setdefault(file.as_posix(), []).append(hashes[file])
+                # Before, for what is ours stays so if this ends here.
+                _write(_known_file(place), json.dumps(known))
             store.put_file(os.fspath(copies.get(file, place / file)), target)
 
 
@@ -118,15 +136,34 @@ def _found(url: str, store: Any, root: str) -> _Files:
     return found
 
 
-def _refuse_to_lose(place: Path, wanted: _Files, put: _Stamps) -> None:
-    """Refuse to replace a database in which something was said since it was staged."""
+def _refuse_to_lose(place: Path, wanted: _Files, put: _Stamps, known: _Known) -> None:
+    """Refuse to replace a database in which something was said since it was staged or published."""
     for inside, (_, told) in wanted.items():
         file = place / inside
         if inside.suffix != DATABASE or not file.exists() or _is_there(file, told["size"], _changed_ns(told)):
             continue
-        if not _is_as_put(file, put.get(str(inside))):
+        if not _is_as_put(file, put.get(str(inside))) and not _is_known(file, known.get(str(inside), [])):
             expected = f"{file}: expected what was staged, which the store has anew"
             raise ValueError(f"{expected}, found what was said here since: publish it elsewhere, or move it away")
+
+
+def _refuse_to_replace(url: str, place: Path, hashes: dict[Path, str], known: _Known, scratch: Path) -> None:
+    """Refuse to replace a database in a store in which something was said that this place doesn't know of."""
+    store, root = _opened(url)
+    put: _Stamps = _read(place.with_name(f".{place.name}.staged"))
+    for file, ours in hashes.items():
+        inside, target = file.as_posix(), f"{root}/{file.as_posix()}"
+        if not store.exists(target):
+            continue
+        told = store.info(target)
+        # What an earlier version staged is known by its size and time alone.
+        if inside not in known and put.get(inside) == [told["size"], _changed_ns(told)]:
+            continue
+        store.get_file(target, os.fspath(scratch))
+        if _hash(scratch) not in [ours, *known.get(inside, [])]:
+            expected = f"{url}: expected what was staged or published here before, which would be replaced"
+            remedy = "publish it elsewhere, or stage that into another folder"
+            raise ValueError(f"{expected}, found {inside} in which others may have said something since: {remedy}")
 
 
 def _take_away(place: Path, inside: str, stamp: list[int]) -> None:
@@ -140,17 +177,18 @@ def _take_away(place: Path, inside: str, stamp: list[int]) -> None:
             (place / folder).rmdir()
 
 
-def _fetch(store: Any, name: str, file: Path, told: dict[str, Any]) -> None:
-    """Copy a file, unless it is there."""
+def _fetch(store: Any, name: str, file: Path, told: dict[str, Any]) -> bool:
+    """Copy a file, unless it is there. Whether it was copied."""
     changed = _changed_ns(told)
     if _is_there(file, told["size"], changed):
-        return
+        return False
     file.parent.mkdir(parents=True, exist_ok=True)
     unfinished = file.with_name(f".{file.name}.part")
     store.get_file(name, os.fspath(unfinished))
     if changed is not None:
         os.utime(unfinished, ns=(changed, changed))
     unfinished.replace(file)
+    return True
 
 
 def _others(url: str, place: Path, wanted: _Files) -> list[str]:
@@ -177,6 +215,29 @@ def _copy(database: Path, copy: Path) -> Path:
     if found != "ok":
         raise ValueError(f"{database}: expected a whole SQLite database, found: {found}")
     return copy
+
+
+def _is_known(database: Path, hashes: list[str]) -> bool:
+    """Whether a database holds what was staged or published, its journal included."""
+    if not hashes:
+        return False
+    with TemporaryDirectory() as scratch:
+        return _hash(_copy(database, Path(scratch) / "copy")) in hashes
+
+
+def _hash(file: Path) -> str:
+    with file.open("rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def _known_file(place: Path) -> Path:
+    return place.with_name(f".{place.name}.known")
+
+
+def _read(record: Path) -> dict[str, Any]:
+    """What a record tells, if there is one."""
+    found: dict[str, Any] = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {}
+    return found
 
 
 def _write(file: Path, text: str) -> None:
