@@ -1,6 +1,6 @@
 //! Edits with a name: none is made twice, however often it is asked for.
 
-use crate::history::history;
+use crate::history::{Gone, Steps, history};
 use crate::model::{ScanVersion, Who};
 use crate::outcome::{Edit, ScanState};
 use crate::read::{scan_state, version_of};
@@ -13,6 +13,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) kind: &'static str,
     pub(crate) sequence: &'a str,
     pub(crate) who: &'a Who,
+    /// Scans that hold something else now.
+    pub(crate) gone: &'a Gone,
 }
 
 /// What was done.
@@ -84,8 +86,13 @@ impl Asked<'_> {
         self.edit(on, made, states)
     }
 
+    /// The author's steps.
+    pub(crate) fn steps(&self) -> Steps<'_> {
+        Steps { sequence: self.sequence, author: &self.who.author, gone: self.gone }
+    }
+
     fn edit(&self, on: &Connection, made: Made, scans: Vec<ScanState>) -> rusqlite::Result<Edit> {
-        let history = history(on, self.sequence, &self.who.author)?;
+        let history = history(on, self.steps())?;
         Ok(Edit { stroke: made.stroke, changed: made.changed, scans, history })
     }
 }

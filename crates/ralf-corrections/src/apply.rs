@@ -4,6 +4,7 @@ use crate::answered::{Asked, Made};
 use crate::causes::{causes, say};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
 use crate::error::StoreError;
+use crate::history::NONE;
 use crate::model::{ScanEdit, ScanVersion, Stroke, Who};
 use crate::outcome::Outcome;
 use crate::read::corrections;
@@ -47,7 +48,7 @@ fn check(stroke: &Stroke) -> Result<(), StoreError> {
 }
 
 fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attempt> {
-    let asked = Asked { kind: "stroke", sequence: &stroke.sequence, who };
+    let asked = Asked { kind: "stroke", sequence: &stroke.sequence, who, gone: &NONE };
     let mut edits: Vec<(ScanVersion, u64)> =
         stroke.scans.iter().map(|edit| (edit.version(&stroke.sequence), edit.base)).collect();
     edits.sort_by(|(a, _), (b, _)| a.key.cmp(&b.key));

@@ -72,22 +72,22 @@ const MET: &str = "
   SELECT scan, other.stroke FROM mark_change AS own JOIN mark_change AS other USING (scan)
   WHERE own.stroke = ?1 AND other.stroke <> own.stroke";
 
-/// The last stroke that another author set on one of this stroke's detections, or on one of its marks, since it was set
-/// or taken back itself. What is there may be what the stroke left all the same: nothing, twice. The author's own later
-/// ones are no conflict: they are taken back before it, and set again after it.
+/// The last stroke that somebody else than `but` set on one of this stroke's detections, or on one of its marks, since
+/// it was set or taken back itself. What is there may be what the stroke left all the same: nothing, twice. Where it is
+/// set again, the author's own later ones are no conflict: they follow.
 pub(crate) fn overtaken(
     on: &Connection,
     stroke: &Placed,
-    author: &str,
+    but: Option<&str>,
 ) -> rusqlite::Result<Option<Conflict>> {
     let later = format!(
         "SELECT {NAMED} FROM ({MET}) AS met
          JOIN stroke ON stroke.id = met.stroke JOIN event ON event.id = stroke.applied
          JOIN scan ON scan.id = met.scan JOIN author ON author.id = event.author
-         WHERE stroke.applied > ?2 AND stroke.author <> ?3
+         WHERE stroke.applied > ?2 AND stroke.author IS NOT ?3
          ORDER BY stroke.applied DESC, stroke.id DESC LIMIT 1"
     );
-    on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, author], conflict).optional()
+    on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, but], conflict).optional()
 }
 
 fn conflict(row: &Row) -> rusqlite::Result<Conflict> {

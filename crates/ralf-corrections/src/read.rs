@@ -5,6 +5,7 @@ use crate::content::{ContentHash, ScanContent};
 use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{Review, ScanState};
 use rusqlite::{Connection, OptionalExtension, Row, params};
+use std::collections::BTreeSet;
 
 /// One scan of which something was said, as it was then.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,6 +44,25 @@ fn rows(on: &Connection, key: &ScanKey) -> rusqlite::Result<Vec<ScanRow>> {
         Ok(ScanRow { id: row.get(0)?, content: content(row, 1, 2)?, revision: row.get(3)? })
     })?
     .collect()
+}
+
+/// The scans of a sequence of which something was ever said, once for each content that they had, with their rows.
+pub(crate) fn versions(on: &Connection, sequence: &str) -> rusqlite::Result<Vec<(i64, ScanVersion)>> {
+    on.prepare_cached("SELECT id, radar, scan, content, detections FROM scan WHERE sequence = ? ORDER BY id")?
+        .query_map([sequence], |row| {
+            let key = ScanKey { sequence: sequence.to_owned(), radar: row.get(1)?, scan: row.get(2)? };
+            Ok((row.get(0)?, ScanVersion { key, content: content(row, 3, 4)? }))
+        })?
+        .collect()
+}
+
+/// The rows of these.
+pub(crate) fn ids(on: &Connection, sequence: &str, of: &[ScanVersion]) -> rusqlite::Result<BTreeSet<i64>> {
+    if of.is_empty() {
+        return Ok(BTreeSet::new());
+    }
+    let all = versions(on, sequence)?.into_iter();
+    Ok(all.filter(|(_, version)| of.contains(version)).map(|(id, _)| id).collect())
 }
 
 /// All that a scan held when somebody said something of it.

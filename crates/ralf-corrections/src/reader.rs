@@ -3,11 +3,11 @@
 use crate::changes::{Changes, changes};
 use crate::content::ScanContent;
 use crate::error::{StoreError, told};
-use crate::history::history;
+use crate::history::{Steps, history};
 use crate::identity::Identity;
 use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{History, ScanState};
-use crate::read::{ScanSummary, contents, scan_state, summaries};
+use crate::read::{ScanSummary, contents, ids, scan_state, summaries, versions};
 use crate::sayings::{Saying, sayings};
 use crate::schema;
 use crate::workday::{Workday, workdays};
@@ -65,7 +65,23 @@ impl Reader {
 
     /// What an author (see [`Who::author`](crate::Who::author)) can undo and redo in a sequence.
     pub fn history(&self, sequence: &str, author: &str) -> Result<History, StoreError> {
-        self.read(|on| history(on, sequence, author))
+        self.history_without(sequence, author, &[])
+    }
+
+    /// The same without the steps that changed any of these, see [`Store::undo_without`](crate::Store::undo_without).
+    pub fn history_without(
+        &self,
+        sequence: &str,
+        author: &str,
+        gone: &[ScanVersion],
+    ) -> Result<History, StoreError> {
+        self.read(|on| history(on, Steps { sequence, author, gone: &ids(on, sequence, gone)? }))
+    }
+
+    /// The scans of a sequence of which something was ever said, once for each content that they had.
+    pub fn versions(&self, sequence: &str) -> Result<Vec<ScanVersion>, StoreError> {
+        let found = self.read(|on| versions(on, sequence))?;
+        Ok(found.into_iter().map(|(_, version)| version).collect())
     }
 
     /// The scans of a sequence that have corrections or a mark, by radar and number. One of which something was

@@ -4,6 +4,7 @@ use crate::answered::{Asked, Made};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
 use crate::content::ScanContent;
 use crate::error::StoreError;
+use crate::history::NONE;
 use crate::model::{Mark, ScanVersion, Who};
 use crate::outcome::{Outcome, Review};
 use crate::read::{mark_of, review};
@@ -31,7 +32,7 @@ impl Store {
 
 fn set(on: &Transaction, version: &ScanVersion, mark: &Mark, who: &Who) -> rusqlite::Result<Attempt> {
     let kind = if mark.reviewed { "reviewed" } else { "unreviewed" };
-    let asked = Asked { kind, sequence: &mark.key.sequence, who };
+    let asked = Asked { kind, sequence: &mark.key.sequence, who, gone: &NONE };
     if let Some(made) = asked.made_before(on)? {
         return asked.answer_again(on, made, &[(version.clone(), mark.base)]).map(Attempt::Done);
     }

@@ -3,10 +3,10 @@
 use crate::answered::{Asked, Made};
 use crate::conflict::{About, Attempt, Refusal, last_edit, overtaken};
 use crate::error::StoreError;
-use crate::history::{Placed, strokes_to_redo, strokes_to_undo};
-use crate::model::Who;
+use crate::history::Placed;
+use crate::model::{ScanVersion, Who};
 use crate::outcome::{Conflict, Outcome};
-use crate::read::{correction, mark_of, version_of};
+use crate::read::{correction, ids, mark_of, version_of};
 use crate::store::Store;
 use crate::write::{correct, log, log_scan, set_mark};
 use rusqlite::{Connection, Transaction, params};
@@ -65,7 +65,21 @@ impl Store {
     /// # Errors
     /// A file that was deleted or replaced; see [`StoreError`].
     pub fn undo(&mut self, sequence: &str, who: &Who) -> Result<Outcome, StoreError> {
-        self.write(|on| step(on, Way::Undo, sequence, who))
+        self.undo_without(sequence, who, &[])
+    }
+
+    /// The same, but steps that changed any of these are passed over: scans that hold something else now, so that
+    /// nobody would see what is done to what was said of them.
+    ///
+    /// # Errors
+    /// Those of [`Self::undo`].
+    pub fn undo_without(
+        &mut self,
+        sequence: &str,
+        who: &Who,
+        gone: &[ScanVersion],
+    ) -> Result<Outcome, StoreError> {
+        self.write(|on| step(on, Way::Undo, (sequence, gone), who))
     }
 
     /// Sets the step again that the author took back last. Refused as a conflict where one of its detections
@@ -74,12 +88,31 @@ impl Store {
     /// # Errors
     /// A file that was deleted or replaced; see [`StoreError`].
     pub fn redo(&mut self, sequence: &str, who: &Who) -> Result<Outcome, StoreError> {
-        self.write(|on| step(on, Way::Redo, sequence, who))
+        self.redo_without(sequence, who, &[])
+    }
+
+    /// The same, but steps that changed any of these are passed over; see [`Self::undo_without`].
+    ///
+    /// # Errors
+    /// Those of [`Self::redo`].
+    pub fn redo_without(
+        &mut self,
+        sequence: &str,
+        who: &Who,
+        gone: &[ScanVersion],
+    ) -> Result<Outcome, StoreError> {
+        self.write(|on| step(on, Way::Redo, (sequence, gone), who))
     }
 }
 
-fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Result<Attempt> {
-    let asked = Asked { kind: way.name(), sequence, who };
+fn step(
+    on: &Transaction,
+    way: Way,
+    (sequence, gone): (&str, &[ScanVersion]),
+    who: &Who,
+) -> rusqlite::Result<Attempt> {
+    let gone = ids(on, sequence, gone)?;
+    let asked = Asked { kind: way.name(), sequence, who, gone: &gone };
     if let Some(made) = asked.made_before(on)? {
         return asked.answer_again(on, made, &[]).map(Attempt::Done);
     }
@@ -87,8 +120,8 @@ fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Resu
         return Ok(Attempt::Taken);
     }
     let strokes = match way {
-        Way::Undo => strokes_to_undo(on, sequence, &who.author)?,
-        Way::Redo => strokes_to_redo(on, sequence, &who.author)?,
+        Way::Undo => asked.steps().to_undo(on)?,
+        Way::Redo => asked.steps().to_redo(on)?,
     };
     let Some(last) = strokes.iter().map(|stroke| stroke.id).max() else {
         return asked.answer(on, Made { event: None, stroke: None, changed: 0 }, &[]).map(Attempt::Done);
@@ -133,7 +166,9 @@ fn move_stroke(
     event: i64,
     author: &str,
 ) -> rusqlite::Result<Option<Conflict>> {
-    if let Some(conflict) = overtaken(on, &done.stroke, author)? {
+    // Of the author's own steps a later one may have been passed over, and is still there.
+    let but = if way == Way::Undo { None } else { Some(author) };
+    if let Some(conflict) = overtaken(on, &done.stroke, but)? {
         return Ok(Some(conflict));
     }
     for change in &done.corrections {

@@ -10,9 +10,7 @@ use crate::options::Options;
 use crate::place::folder_name;
 use crate::shared_store::{SharedStore, identity};
 use crate::team::Team;
-use ralf_corrections::{
-    Outcome, Reader, ScanContent, ScanKey, ScanSummary, ScanVersion, Store, StoreError, Who,
-};
+use ralf_corrections::{History, Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError, Who};
 use ralf_data::run::read_record;
 use ralf_data::{Recording, ScanIndex, SequenceReader};
 use std::path::{Path, PathBuf};
@@ -126,17 +124,40 @@ impl App {
         Ok(self.store.read(ask)?)
     }
 
-    /// Writes corrections, and has other windows hear of it.
+    /// Writes corrections of a sequence, and has other windows hear of it. `edit` is told of which scans something was
+    /// said while they held something else: it leaves these alone, and so does the history that is answered.
     pub(crate) fn edit(
         &self,
-        edit: impl FnOnce(&mut Store) -> Result<Outcome, StoreError>,
+        sequence: &str,
+        who: &Who,
+        edit: impl FnOnce(&mut Store, &[ScanVersion]) -> Result<Outcome, StoreError>,
     ) -> Result<Outcome, ApiError> {
         let reason = || ApiError::Forbidden(self.store.read_only().unwrap_or_default().to_owned());
-        let outcome = self.store.write(edit).ok_or_else(reason)??;
-        if matches!(outcome, Outcome::Done(_)) {
+        let gone = self.gone(sequence)?;
+        let mut outcome = self.store.write(|store| edit(store, &gone)).ok_or_else(reason)??;
+        if let Outcome::Done(done) = &mut outcome {
             self.news.send_replace(());
+            if !gone.is_empty() {
+                done.history = self.said(|store| store.history_without(sequence, &who.author, &gone))?;
+            }
         }
         Ok(outcome)
+    }
+
+    /// What a person can undo and redo in a sequence.
+    pub(crate) fn history(&self, sequence: &str, who: &Who) -> Result<History, ApiError> {
+        let gone = self.gone(sequence)?;
+        self.said(|store| store.history_without(sequence, &who.author, &gone))
+    }
+
+    /// The scans of a sequence of which something was said while they held something else.
+    fn gone(&self, sequence: &str) -> Result<Vec<ScanVersion>, ApiError> {
+        let mut gone = self.said(|store| store.versions(sequence))?;
+        let holds = |version: &ScanVersion| self.holds(&version.key, version.content);
+        let held = gone.iter().map(holds).collect::<Result<Vec<_>, _>>()?;
+        let mut held = held.into_iter();
+        gone.retain(|_| held.next() == Some(false));
+        Ok(gone)
     }
 
     /// What a scan holds now.
@@ -165,11 +186,11 @@ impl App {
 
     /// Whether something was said of what a scan holds, and not of something else that it held, or of a scan that the
     /// recording doesn't have.
-    pub(crate) fn holds(&self, said: &ScanSummary) -> Result<bool, ApiError> {
-        let ScanKey { sequence, radar, scan } = &said.key;
+    pub(crate) fn holds(&self, key: &ScanKey, said: ScanContent) -> Result<bool, ApiError> {
+        let ScanKey { sequence, radar, scan } = key;
         let Ok(place) = self.scan(sequence, radar, *scan as usize) else { return Ok(false) };
         let content = self.known_content(&place)?;
-        Ok(content.is_some_and(|content| content.find_in(&[said.content]).is_some()))
+        Ok(content.is_some_and(|content| content.find_in(&[said]).is_some()))
     }
 
     /// A sequence by its name.

@@ -1,7 +1,7 @@
 //! Single cases, worked out by hand.
 use ralf_corrections::{
-    Conflict, Edit, Mark, Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
-    Who, read_layer,
+    Conflict, Edit, Mark, Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Step, Store, StoreError,
+    Stroke, Who, read_layer,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -225,4 +225,50 @@ fn every_commit_reaches_the_disk() {
         fs::copy(of(&folder.file), of(&copy.file)).unwrap();
     }
     assert_eq!(copy.open().scan(&version(3)).unwrap().corrections, [(1, 99)]);
+}
+
+/// Scan 2 and scan 3 by one stroke, scan 3 before and after it; then scan 2 holds something else.
+#[test]
+fn steps_on_what_is_gone_are_passed_over_and_found_when_it_is_back() {
+    let folder = Folder::new();
+    let (mut store, ada) = (folder.open(), who("ada"));
+    done(store.apply(&stroke(30, vec![edit(3, 0, &[1, 2])]), &ada).unwrap());
+    done(store.apply(&stroke(10, vec![edit(2, 0, &[4]), edit(3, 1, &[5, 6])]), &ada).unwrap());
+    done(store.apply(&stroke(11, vec![edit(2, 1, &[7])]), &ada).unwrap());
+    assert_eq!(store.versions("00").unwrap(), [version(3), version(2)]);
+    let gone = [version(2)];
+    let history = |store: &Store, gone: &[ScanVersion]| {
+        let found = store.history_without("00", "ada", gone).unwrap();
+        let label = |step: Option<Step>| step.and_then(|step| step.label);
+        ((found.undo_depth, label(found.undo)), (found.redo_depth, label(found.redo)))
+    };
+    assert_eq!(history(&store, &gone), ((1, Some(30)), (0, None)));
+    let undone = done(store.undo_without("00", &ada, &gone).unwrap());
+    assert_eq!((undone.changed, undone.scans[0].corrections.as_slice()), (2, &[(5, 10), (6, 10)][..]));
+    assert_eq!((undone.history.undo, undone.history.redo_depth), (None, 1));
+    let nothing = done(store.undo_without("00", &ada, &gone).unwrap());
+    assert_eq!((nothing.changed, nothing.stroke), (0, None));
+    // What was taken back while it was there is not set again either.
+    assert_eq!(done(store.undo("00", &ada).unwrap()).changed, 1);
+    assert_eq!(history(&store, &gone), ((0, None), (1, Some(30))));
+    assert_eq!(done(store.redo_without("00", &ada, &gone).unwrap()).changed, 2);
+    assert_eq!(done(store.redo_without("00", &ada, &gone).unwrap()).changed, 0);
+    assert_eq!(history(&store, &[]), ((2, Some(30)), (1, Some(11))));
+    assert_eq!(store.scan(&version(2)).unwrap().corrections, [(4, 10)]);
+    drop(folder.open());
+}
+
+/// Nothing is taken from below a step that was passed over, even where it left the same.
+#[test]
+fn a_step_below_one_that_is_passed_over_stays() {
+    let folder = Folder::new();
+    let (mut store, ada) = (folder.open(), who("ada"));
+    done(store.apply(&stroke(30, vec![edit(3, 0, &[1])]), &ada).unwrap());
+    let again = Stroke { confirm: true, ..stroke(30, vec![edit(2, 0, &[4]), edit(3, 1, &[1])]) };
+    done(store.apply(&again, &ada).unwrap());
+    let met = conflict(store.undo_without("00", &ada, &[version(2)]).unwrap());
+    assert_eq!((met.author.as_str(), met.scan), ("ada", 3));
+    drop(folder.open());
+    assert_eq!(done(store.undo("00", &ada).unwrap()).changed, 2);
+    assert_eq!(done(store.undo("00", &ada).unwrap()).changed, 1);
 }

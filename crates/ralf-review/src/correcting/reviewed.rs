@@ -43,7 +43,7 @@ pub(crate) fn mark(
     }
     let mark = Mark { key: place.key, content, base: asked.revision, machine, reviewed: asked.reviewed };
     let who = app.who(person, asked.id);
-    match app.edit(|store| store.mark(&mark, &who))? {
+    match app.edit(sequence, &who, |store, _| store.mark(&mark, &who))? {
         Outcome::Conflict(found) => Err(answers::conflict(app, &found)),
         Outcome::Done(edit) => {
             let mut answer = answers::done(app, &edit);

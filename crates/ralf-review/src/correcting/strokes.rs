@@ -72,29 +72,28 @@ fn present<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u16>, D::Error>
 pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Person) -> Answer {
     let who = app.who(person, asked.id.clone());
     let stroke = checked(app, sequence, asked)?;
-    answers::outcome(app, app.edit(|store| store.apply(&stroke, &who))?)
+    answers::outcome(app, app.edit(sequence, &who, |store, _| store.apply(&stroke, &who))?)
 }
 
 /// Takes the person's own last step back.
 pub(crate) fn undo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
     let who = app.who(person, asked.id);
-    answers::outcome(app, app.edit(|store| store.undo(sequence, &who))?)
+    answers::outcome(app, app.edit(sequence, &who, |store, gone| store.undo_without(sequence, &who, gone))?)
 }
 
 /// Sets the step again that the person took back last.
 pub(crate) fn redo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
     let who = app.who(person, asked.id);
-    answers::outcome(app, app.edit(|store| store.redo(sequence, &who))?)
+    answers::outcome(app, app.edit(sequence, &who, |store, gone| store.redo_without(sequence, &who, gone))?)
 }
 
 /// What the person can undo and redo.
 pub(crate) fn history(app: &App, sequence: &str, person: Person) -> Answer {
     app.sequence(sequence)?;
     let who = app.who(person, None);
-    let found = app.said(|store| store.history(sequence, &who.author))?;
-    json(&answers::history(&found))
+    json(&answers::history(&app.history(sequence, &who)?))
 }
 
 /// The stroke in the store's terms. Refused is what makes no sense.

@@ -26,7 +26,7 @@ impl Said {
         let mut said = Self::default();
         for summary in app.said(|store| store.summaries(&sequence.name))? {
             let key = RadarScanKey::new(&summary.key.radar, summary.key.scan as usize);
-            if app.holds(&summary)? {
+            if app.holds(&summary.key, summary.content)? {
                 said.holding.insert(key, summary);
             } else {
                 *said.orphaned.entry(key).or_default() +=

@@ -217,6 +217,10 @@ fn corrections_of_other_detections_are_kept_shown_and_never_applied() {
     assert_eq!(now.f32("x")[0], before.f32("x")[10]);
     assert!(now.u8("corrected").iter().all(|corrected| *corrected == 0));
     assert_eq!((&now.header["revision"], &now.header["reviewed"]), (&json!(0), &json!(null)));
+    // Nobody sees these steps, so nobody takes them back.
+    assert_eq!(server.of_sequence("history").json()["undo"], json!(null));
+    let undone = server.edit("POST", "undo", &json!({}), "one").json();
+    assert_eq!((&undone["changed"], &undone["history"]["undo_depth"]), (&json!(0), &json!(0)));
     assert_eq!(now.u16("label"), now.u16("machine"));
     let queue = server.of_sequence("queue").json();
     assert_eq!(
