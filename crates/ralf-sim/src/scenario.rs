@@ -129,7 +129,7 @@ pub struct Thing {
     /// Length, width, height, m; what is usual for its kind if not given.
     #[serde(default, deserialize_with = "exact::optional")]
     pub size: Option<[f64; 3]>,
-    /// How many.
+    /// How many: 1 to 1000.
     #[serde(default = "one")]
     pub count: usize,
     /// From one to the next.

@@ -1,6 +1,6 @@
 //! `ralf ablate`: what each branch and each extension is good for.
 
-use super::search::{SearchArgs, name_what_is_left_out, tables};
+use super::search::{SearchArgs, Sensed, name_what_is_left_out, tables};
 use crate::outcome::Outcome;
 use crate::text::{aligned, decimal, print};
 use clap::Args;
@@ -55,25 +55,7 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
-/// What there is beside the radars.
-struct Sensed {
-    lidar: bool,
-    /// Depth of any camera's images.
-    depth: bool,
-}
-
 impl Sensed {
-    fn by(recording: &Recording) -> Self {
-        let sequences = || recording.sequences.iter().map(|reader| (reader, reader.sequence()));
-        Self {
-            lidar: sequences()
-                .any(|(_, sequence)| sequence.times.lidars.iter().any(|times| !times.is_empty())),
-            depth: sequences().any(|(reader, sequence)| {
-                (0..sequence.rig.cameras.len()).any(|camera| reader.has_depth(camera))
-            }),
-        }
-    }
-
     /// What nothing is told of, a line.
     fn told(&self) -> &'static str {
         match self {

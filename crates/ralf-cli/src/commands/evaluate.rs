@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
+#[command(mut_arg("changed_recording", |changed| changed.requires("truth")))]
 #[command(after_help = "\
 Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may \
 be there. Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the \

@@ -62,6 +62,26 @@ pub(super) fn tables(sequences: &[(String, MismatchTable)]) -> Vec<&MismatchTabl
     sequences.iter().map(|(_, table)| table).collect()
 }
 
+/// What there is beside the radars.
+pub(super) struct Sensed {
+    pub(super) lidar: bool,
+    /// Depth of any camera's images.
+    pub(super) depth: bool,
+}
+
+impl Sensed {
+    pub(super) fn by(recording: &Recording) -> Self {
+        let sequences = || recording.sequences.iter().map(|reader| (reader, reader.sequence()));
+        Self {
+            lidar: sequences()
+                .any(|(_, sequence)| sequence.times.lidars.iter().any(|times| !times.is_empty())),
+            depth: sequences().any(|(reader, sequence)| {
+                (0..sequence.rig.cameras.len()).any(|camera| reader.has_depth(camera))
+            }),
+        }
+    }
+}
+
 impl SearchArgs {
     /// Sequences can't be trained on and judged by, and each has a name and counts once.
     pub(super) fn check(&self, test: &[String]) -> Result<(), UsageError> {

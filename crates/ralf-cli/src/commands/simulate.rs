@@ -90,10 +90,10 @@ pub(crate) struct SimulateArgs {
     #[arg(long, default_value_t = 0, value_name = "S")]
     seed: u64,
     /// No cameras: all other measurements are the same, and made ten times as fast
-    #[arg(long)]
+    #[arg(long, conflicts_with = "compare")]
     no_images: bool,
     /// With the segmentation of every image, as a faultless network gives it: CAMERA/segmentation/000000.png
-    #[arg(long, conflicts_with = "no_images")]
+    #[arg(long, conflicts_with_all = ["no_images", "compare"])]
     segmentation: bool,
     /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
     #[arg(long, value_name = "N")]

@@ -3,7 +3,7 @@
 mod report;
 mod text;
 
-use super::search::{Parts, SearchArgs, name_what_is_left_out, tables};
+use super::search::{Parts, SearchArgs, Sensed, name_what_is_left_out, tables};
 use crate::arguments::check_editable;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
@@ -47,6 +47,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let base = search.base()?;
     refuse_no_branch(&base.method)?;
     let (recording, truth, outcome) = search.open(&base, &arguments.test)?;
+    refuse_blind(&base.method, &Sensed::by(&recording))?;
     let matched = search.gather(&recording, &truth, &base.method)?;
     let outcome = outcome.and(name_what_is_left_out(&matched));
     let report = arguments.tune(&base.method, &search.parts(matched))?;
@@ -70,6 +71,22 @@ fn refuse_no_branch(config: &Config) -> Result<(), UsageError> {
     }
     let found = "lidar.enabled, camera.enabled and tracking.enabled are all false";
     Err(UsageError(format!("expected one branch or more whose settings are searched for, but {found}")))
+}
+
+/// Nor is there any where no branch that is on has anything to observe.
+fn refuse_blind(config: &Config, sensed: &Sensed) -> Result<(), UsageError> {
+    let lidar = config.lidar.enabled && sensed.lidar;
+    let camera = config.camera.enabled && sensed.depth;
+    if config.tracking.enabled || lidar || camera {
+        return Ok(());
+    }
+    let branches = [
+        (config.lidar.enabled, "lidar.enabled without a LiDAR"),
+        (config.camera.enabled, "camera.enabled without depth of any camera"),
+    ];
+    let found: Vec<_> = branches.iter().filter(|(on, _)| *on).map(|(_, found)| *found).collect();
+    let expected = "expected one branch or more that observes something in these sequences";
+    Err(UsageError(format!("{expected}, found {}, and tracking.enabled is false", found.join(" and "))))
 }
 
 impl TuneArgs {

@@ -147,6 +147,9 @@ fn without_odometry_the_radars_tell_the_motion() {
     let out = dataset.beside("labels");
     ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["motion is taken from the radars' range rates"]);
     assert_eq!(record(&out)["sequences"][0]["motion"], "radar");
+    let told = ralf(["inspect", &made, "--quick"]).exits(0).stdout;
+    assert!(told.contains("0 poses, 0 odometry samples\n") && !told.contains("wheel odometry"), "{told}");
+    assert!(told.contains("- the motion is taken from the radars' range rates\n"), "{told}");
     // A damaged scan costs itself, not the source of the motion.
     let scan = sequence_file(&made, "radar_front/000003.bin");
     let whole = fs::read(&scan).unwrap();
@@ -166,6 +169,9 @@ fn without_odometry_and_range_rates_the_lidar_tells_the_motion() {
     let out = dataset.beside("labels");
     ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["motion is taken from the LiDAR's scans"]);
     assert_eq!(record(&out)["sequences"][0]["motion"], "lidar");
+    ralf(["inspect", &made, "--quick"])
+        .exits(0)
+        .prints(["0 poses, 0 odometry samples\n", "- the motion is taken from a LiDAR's scans\n"]);
     // Nothing is left that tells it.
     fs::write(&file, text.replace("\"doppler\"", "\"speed\"").split("[[lidar]]").next().unwrap()).unwrap();
     ralf(["check", &made]).exits(1).says(["range rates", "LiDAR", "--trajectory"]);

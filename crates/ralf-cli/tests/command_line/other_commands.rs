@@ -22,6 +22,16 @@ fn size(file: &str) -> [u32; 2] {
 }
 
 #[test]
+fn options_that_would_change_nothing_are_refused() {
+    for more in [["--segmentation"].as_slice(), &["--no-images"], &["--with", "other", "--no-images"]] {
+        let told =
+            crate::support::program().args(["simulate", "--compare", "city"]).args(more).output().unwrap();
+        crate::support::Ran::of(&told).exits(2).says(["cannot be used with", "--compare"]);
+    }
+    ralf(["evaluate", "out", "--changed-recording"]).exits(2).says(["required arguments", "--truth"]);
+}
+
+#[test]
 fn inspect_tells_what_is_there_and_what_is_missing() {
     let dataset = Dataset::new();
     let ran = ralf(["inspect", &dataset.path]).exits(0).says_nothing();

@@ -278,6 +278,11 @@ fn nothing_to_tune_and_names_that_are_empty_are_refused() {
     tune("00", "01", &["lidar", "camera", "tracking"])
         .exits(2)
         .ends_with_error(["expected one branch or more", "are all false"]);
+    // There is no camera: all settings would be as good as any other.
+    tune("00", "01", &["lidar", "tracking"]).exits(2).ends_with_error([
+        "that observes something",
+        "found camera.enabled without depth of any camera, and",
+    ]);
     assert!(!fs::exists(&file).unwrap());
     tune("00", "01", &["camera", "tracking"]).exits(0);
 }

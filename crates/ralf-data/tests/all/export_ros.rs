@@ -5,7 +5,7 @@ use ralf::sensors::{Rig, Source};
 use ralf::space::Transform;
 use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
-use ralf_data::{LayoutSequence, Recording, Settings, open, open_with, write_sequence};
+use ralf_data::{LayoutSequence, Recording, SequenceReader, Settings, open, open_with, write_sequence};
 use ralf_ros::container::Container;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -175,6 +175,37 @@ fn the_vehicle_is_shown_once_at_a_time() {
     let measured = motion.poses().len() + motion.odometry().len();
     times.dedup();
     assert!(times.len() == shown.len() && times.len() < measured, "{} of {measured}", times.len());
+}
+
+/// ROS 2 takes no topic of which a part begins with a digit.
+#[test]
+fn a_name_that_begins_with_a_digit_is_read_back() {
+    let (_dataset, path) = sequence();
+    let toml = fs::read_to_string(path.join("sequence.toml")).unwrap();
+    write(&path.join("sequence.toml"), toml.replace("\"radar_rear\"", "\"7 läft\""));
+    fs::rename(path.join("radar_rear"), path.join("7 läft")).unwrap();
+    let reader = LayoutSequence::open(&path).unwrap();
+    let radar = |reader: &dyn SequenceReader| {
+        let index = reader.sequence().rig.radars.iter().position(|radar| radar.name == "7 läft").unwrap();
+        reader.radar_scan(index, 0).unwrap().columns
+    };
+    for format in [RosFormat::Mcap, RosFormat::Bag] {
+        let folder = tempfile::tempdir().unwrap();
+        let (recording, settings) = converted(&reader, folder.path(), format);
+        assert_eq!(radar(recording.sequences[0].as_ref()), radar(&reader));
+        let told = format!("{:?}", settings.topics);
+        assert!(told.contains("\"/n7_l_ft/points\"") && !told.contains("\"/7"), "{told}");
+    }
+    write(
+        &path.join("sequence.toml"),
+        toml.replace("\"radar_rear\"", "\"7\"").replace("\"lidar_top\"", "\"n7\""),
+    );
+    for (from, to) in [("7 läft", "7"), ("lidar_top", "n7")] {
+        fs::rename(path.join(from), path.join(to)).unwrap();
+    }
+    let file = tempfile::tempdir().unwrap().path().join("street.mcap");
+    let told = write_ros(&LayoutSequence::open(&path).unwrap(), &file, RosFormat::Mcap, &|_| {}).unwrap_err();
+    assert!(told.to_string().contains("two topics of the name `n7`"), "{told}");
 }
 
 #[test]

@@ -69,8 +69,8 @@ impl Scenario {
         if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && size.is_finite())) {
             return refuse("thing.size", "lengths above 0 m", size);
         }
-        if let Some(thing) = self.thing.iter().find(|thing| thing.count > MOST) {
-            return refuse("thing.count", "1000 at most", thing.count as f64);
+        if let Some(thing) = self.thing.iter().find(|thing| !(1..=MOST).contains(&thing.count)) {
+            return refuse("thing.count", "1 to 1000", thing.count as f64);
         }
         let step = |thing: &Thing| thing.step[0].hypot(thing.step[1]);
         if let Some(thing) = self.thing.iter().find(|thing| step(thing) < thing.least_step()) {

@@ -97,6 +97,18 @@ fn an_export_with_somebodys_own_files_is_never_replaced() {
 }
 
 #[test]
+fn a_record_tells_of_no_sensors_that_the_format_has_no_place_for() {
+    let dataset = small();
+    for (format, others) in [("npz", false), ("parquet", false), ("mcap", true)] {
+        let path = export(&dataset, format, format, &["--sensors"]);
+        let record = fs::read(format!("{path}/_export.json")).unwrap();
+        let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+        let expected = serde_json::json!({ "radar": true, "lidar": others, "camera": others });
+        assert_eq!(record["sensors"], expected, "{format}");
+    }
+}
+
+#[test]
 fn a_file_is_replaced_like_a_folder() {
     let dataset = small();
     for (format, name) in [("mcap", "labels.mcap"), ("rosbag1", "labels.bag")] {

@@ -6,13 +6,14 @@ mod path;
 mod readable;
 
 use crate::read::SequenceReader;
+use crate::read::corrections::MotionSource;
 pub use held::held_motion;
 use path::Path;
 pub use readable::Unreadable;
 
 use ralf::config::{Config, nanoseconds};
 use ralf::sensors::{Camera, Sequence};
-use ralf::space::sync;
+use ralf::space::{EgoMotion, sync};
 use serde::Serialize;
 
 /// A time between two measurements that is this many times the usual one is a gap.
@@ -88,8 +89,8 @@ impl Inspection {
             seconds: last.abs_diff(first) as f64 * 1e-9,
             path_m: path.metres,
             motion_unknown_s: path.unknown_s,
-            odometry_samples: sequence.motion.odometry().len(),
-            poses: sequence.motion.poses().len(),
+            odometry_samples: told(reader).odometry().len(),
+            poses: told(reader).poses().len(),
             missing: [
                 missing(reader, &sensors, config),
                 path.missing(),
@@ -172,10 +173,9 @@ fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &C
             ),
         );
     }
-    say(
-        sequence.motion.poses().is_empty(),
-        "no 6-DoF poses: the motion is integrated from wheel odometry".into(),
-    );
+    if let Some(text) = motion(reader) {
+        say(true, text.into());
+    }
     for SensorInspection { name, count, with_lidar, .. } in
         sensors.iter().filter(|sensor| sensor.kind == "radar")
     {
@@ -192,6 +192,26 @@ fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &C
         say(own.is_empty(), format!("{name}: nothing recorded"));
     }
     missing
+}
+
+/// Where the motion comes from, if not from poses.
+fn motion(reader: &dyn SequenceReader) -> Option<&'static str> {
+    let motion = &reader.sequence().motion;
+    match reader.motion_source() {
+        MotionSource::Radar => Some("the motion is taken from the radars' range rates"),
+        MotionSource::Lidar => Some("the motion is taken from a LiDAR's scans"),
+        _ if !motion.poses().is_empty() => None,
+        _ if motion.odometry().is_empty() => Some("neither 6-DoF poses nor odometry: the motion isn't known"),
+        _ => Some("no 6-DoF poses: the motion is integrated from wheel odometry"),
+    }
+}
+
+/// The motion that was recorded, or a trajectory tells, and not the one that the sensors were asked for.
+fn told(reader: &dyn SequenceReader) -> &EgoMotion {
+    match (reader.motion_source(), reader.inner()) {
+        (MotionSource::Radar | MotionSource::Lidar, Some(inner)) => told(inner),
+        _ => &reader.sequence().motion,
+    }
 }
 
 fn offset_to_nearest(times: &[i64], t_ns: i64) -> Option<i64> {

@@ -28,9 +28,10 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Of an export of these sequences.
+    /// Of an export of these sequences. What was asked for and the format can't hold isn't there.
     pub(super) fn new(options: &ExportOptions, sequences: Vec<String>) -> Self {
-        Self { version: env!("CARGO_PKG_VERSION").to_owned(), options: *options, sequences, files: None }
+        let options = ExportOptions { sensors: options.sensors.and(options.format.sensors()), ..*options };
+        Self { version: env!("CARGO_PKG_VERSION").to_owned(), options, sequences, files: None }
     }
 
     /// That of an export; `None` of any other folder.

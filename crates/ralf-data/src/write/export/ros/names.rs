@@ -2,6 +2,7 @@
 
 pub(super) use crate::read::ros::LABELLED;
 use ralf::sensors::Rig;
+use std::borrow::Cow;
 
 /// The vehicle's frame.
 pub(super) const VEHICLE: &str = "base_link";
@@ -21,17 +22,17 @@ pub(super) const TF_STATIC: &str = "/tf_static";
 
 /// The topic of a sensor's clouds.
 pub(super) fn cloud(sensor: &str, name: &str) -> String {
-    format!("/{sensor}{name}")
+    format!("/{}{name}", part(sensor))
 }
 
 /// The topic of a camera's images.
 pub(super) fn image(camera: &str) -> String {
-    format!("/{camera}/image_raw/compressed")
+    format!("/{}/image_raw/compressed", part(camera))
 }
 
 /// The topic of a camera's calibration.
 pub(super) fn camera_info(camera: &str) -> String {
-    format!("/{camera}/camera_info")
+    format!("/{}/camera_info", part(camera))
 }
 
 /// The names of a rig's sensors in ROS, each kind in the rig's order.
@@ -49,19 +50,29 @@ impl Names {
             lidars: rig.lidars.iter().map(|lidar| in_ros(&lidar.name)).collect(),
             cameras: rig.cameras.iter().map(|camera| in_ros(&camera.name)).collect(),
         };
-        let mut all: Vec<&str> = names.all().collect();
-        all.extend([VEHICLE, ODOM]);
-        all.sort_unstable();
-        match all.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(format!("two frames of the name `{}`", pair[0])),
-            None => Ok(names),
+        let mut frames: Vec<_> = names.all().chain([VEHICLE, ODOM]).map(Cow::from).collect();
+        let mut topics: Vec<_> = names.all().map(part).collect();
+        for (what, all) in [("frames", &mut frames), ("topics", &mut topics)] {
+            all.sort_unstable();
+            if let Some(pair) = all.windows(2).find(|pair| pair[0] == pair[1]) {
+                return Err(format!("two {what} of the name `{}`", pair[0]));
+            }
         }
+        Ok(names)
     }
 
     /// Radars, LiDARs, cameras.
     pub(super) fn all(&self) -> impl Iterator<Item = &str> {
         self.radars.iter().chain(&self.lidars).chain(&self.cameras).map(String::as_str)
     }
+}
+
+/// A sensor's name as a part of topics, which in ROS 2 begin with no digit; frames may.
+fn part(sensor: &str) -> Cow<'_, str> {
+    if sensor.starts_with(|first: char| first.is_ascii_digit()) {
+        return format!("n{sensor}").into();
+    }
+    sensor.into()
 }
 
 fn in_ros(name: &str) -> String {
