@@ -5,6 +5,7 @@ use crate::model::ScanVersion;
 use crate::outcome::{Conflict, Edit};
 use crate::read::scan_state;
 use rusqlite::{Connection, OptionalExtension, Row, params};
+use std::cmp::Ordering;
 
 /// What came of an attempt to write, before anything is committed.
 pub(crate) enum Attempt {
@@ -41,11 +42,16 @@ pub(crate) enum About {
     Mark,
 }
 
-/// The last edit of a scan, unless its revision is the one that the author saw.
+/// The last edit of a scan, unless its revision is the one that the author saw. Of a revision that it never had nobody
+/// is named.
 pub(crate) fn overtaken_base(on: &Connection, scan: i64, base: u64) -> rusqlite::Result<Option<Conflict>> {
     let revision: u64 =
         on.prepare_cached("SELECT revision FROM scan WHERE id = ?")?.query_row([scan], |row| row.get(0))?;
-    if revision == base { Ok(None) } else { last_edit(on, scan, About::Corrections).map(Some) }
+    match base.cmp(&revision) {
+        Ordering::Equal => Ok(None),
+        Ordering::Less => last_edit(on, scan, About::Corrections).map(Some),
+        Ordering::Greater => nobodys(on, scan).map(Some),
+    }
 }
 
 /// The last edit of a scan; of one that was never edited nobody's.
@@ -60,8 +66,12 @@ pub(crate) fn last_edit(on: &Connection, scan: i64, about: About) -> rusqlite::R
          WHERE event_scan.scan = ? AND kind IN ({kinds}) ORDER BY event.id DESC LIMIT 1"
     );
     let found = on.prepare_cached(&last)?.query_row([scan], conflict).optional()?;
-    let nobody = "SELECT '', '', '', radar, scan FROM scan WHERE id = ?";
-    found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
+    found.map_or_else(|| nobodys(on, scan), Ok)
+}
+
+/// A conflict with no edit.
+fn nobodys(on: &Connection, scan: i64) -> rusqlite::Result<Conflict> {
+    on.query_row("SELECT '', '', '', radar, scan FROM scan WHERE id = ?", [scan], conflict)
 }
 
 /// The other strokes with a change to a detection that a stroke changed, or to a scan's mark that it changed.

@@ -28,7 +28,8 @@ pub struct Edit {
 /// Whose edit came first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Conflict {
-    /// The other edit's author, by name.
+    /// The other edit's author, by name; empty, as time and tool are, where there is none: the edit was made on a
+    /// revision that the scan never had.
     pub author: String,
     /// When it was made, ISO 8601 in UTC.
     pub at: String,

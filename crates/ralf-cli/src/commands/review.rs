@@ -6,8 +6,10 @@ use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
+use ralf_data::result::read_record;
+use ralf_data::team::Assignment;
 use ralf_review::{Options, Server};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where the system keeps the user's name.
 const NAMES: [&str; 2] = ["USER", "USERNAME"];
@@ -62,6 +64,7 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
         token_folder: token_folder(),
     };
     let server = Server::bind(recording, &arguments.out, &options)?;
+    tell_waiting(&arguments.out)?;
     let urls = server.urls();
     for url in &urls {
         print(url)?;
@@ -81,6 +84,14 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
     let _detour = urls.first().filter(|_| arguments.open).and_then(|url| open_browser(url, invitation));
     server.run()?;
     Ok(Outcome::Done)
+}
+
+/// Says which sequences were dealt and aren't labelled at the moment.
+fn tell_waiting(out: &Path) -> anyhow::Result<()> {
+    let labelled = read_record(out)?.sequences;
+    let dealt = Assignment::open(out, &labelled)?;
+    dealt.and_then(|dealt| dealt.told_waiting(out, &labelled)).iter().for_each(|sentence| say(sentence));
+    Ok(())
 }
 
 impl ReviewArgs {

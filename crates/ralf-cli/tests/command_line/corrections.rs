@@ -160,6 +160,12 @@ fn agreement_is_of_the_scans_alone_that_were_dealt() {
     ralf(asked).exits(0).prints(["labelled by both"]);
     deal(format!("[bob]\ntwice = [\"00/{RADAR}/000000\"]"));
     ralf(asked).exits(0).prints(["labelled by both"]);
+    // Of a sequence that isn't labelled at the moment nothing is lost.
+    deal(format!(
+        "[bob]\ntwice = [\"00/{RADAR}/000000\", \"07/{RADAR}/000000\"]\n[ada]\nsequences = [\"08\"]"
+    ));
+    let waiting = "team.toml: not labelled at the moment, and nobody is asked for it: 07, 08";
+    ralf(asked).exits(0).prints(["labelled by both"]).says([waiting]);
     deal(format!("[bob]\ntwice = [\"00/{RADAR}/000001\"]"));
     ralf(asked)
         .exits(1)

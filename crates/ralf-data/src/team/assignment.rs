@@ -3,15 +3,18 @@
 use super::person::{alike, person};
 use crate::disk::files::{self, write_whole};
 use crate::error::DataError;
-use crate::result::{Component, SequenceRecord};
+use crate::result::{Component, RadarRecord, SequenceRecord};
 use crate::tree::TEAM as FILE;
 use crate::truth::ScanId;
+use crate::words::listed;
 use ralf_files::Kind;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+/// So many sequences are named that aren't labelled.
+const SHOWN: usize = 5;
 /// What stands above.
 const HEAD: &str = "# Who labels what, as `ralf assign` dealt it; change it as you like.\n";
 
@@ -64,8 +67,9 @@ impl Assignment {
     /// Reads what was dealt of these labelled sequences below an output folder; `None` where nothing was.
     ///
     /// # Errors
-    /// A file that says something else, names somebody as the review can't, or names sequences or scans that aren't
-    /// there: nobody would ever be asked for them.
+    /// A file that says something else, names somebody as the review can't, or names scans that a labelled sequence
+    /// doesn't have: nobody would ever be asked for them. Sequences that aren't labelled are no error, for those of
+    /// earlier runs come back, but [told](Self::told_waiting).
     pub fn open(out: &Path, labelled: &[SequenceRecord]) -> Result<Option<Self>, DataError> {
         let file = Self::file(out);
         if !files::exists(&file)? {
@@ -105,22 +109,33 @@ impl Assignment {
     fn check(&self, file: &Path, labelled: &[SequenceRecord]) -> Result<(), DataError> {
         let of = |name: &str| labelled.iter().find(|sequence| sequence.name == name);
         // A scan that could not be labelled this time may be dealt all the same.
-        let exists = |scan: &ScanId| {
-            let mut radars = of(&scan.sequence).into_iter().flat_map(|sequence| &sequence.radars);
-            radars.any(|radar| radar.name == scan.radar && (scan.scan as usize) < radar.detections.len())
+        let may_exist = |scan: &ScanId| {
+            of(&scan.sequence).is_none_or(|sequence| {
+                let holds = |radar: &RadarRecord| (scan.scan as usize) < radar.detections.len();
+                sequence.radars.iter().any(|radar| radar.name == scan.radar && holds(radar))
+            })
         };
         for (person, share) in &self.0 {
-            let refused = |key: &str, expected, found: String| {
-                Err(DataError::content(file, format!("[{person}], {key}"), expected, format!("`{found}`")))
-            };
-            if let Some(name) = share.sequences.iter().find(|name| of(name).is_none()) {
-                return refused("sequences", "labelled sequences", name.clone());
-            }
-            if let Some(scan) = share.twice.iter().find(|scan| !exists(scan)) {
-                return refused("twice", "scans of labelled sequences", scan.to_string());
+            if let Some(scan) = share.twice.iter().find(|scan| !may_exist(scan)) {
+                let (place, found) = (format!("[{person}], twice"), format!("`{scan}`"));
+                return Err(DataError::content(file, place, "scans of labelled sequences", found));
             }
         }
         Ok(())
+    }
+
+    /// The sentence about sequences that were dealt, all or scans of them, and aren't labelled at the moment; `None`
+    /// where all are.
+    pub fn told_waiting(&self, out: &Path, labelled: &[SequenceRecord]) -> Option<String> {
+        let own = self.0.values().flat_map(|share| &share.sequences);
+        let twice = self.0.values().flat_map(|share| share.twice.iter().map(|scan| &scan.sequence));
+        let dealt: BTreeSet<&str> = own.chain(twice).map(String::as_str).collect();
+        let is_labelled = |name: &str| labelled.iter().any(|sequence| sequence.name == name);
+        let waiting: Vec<&str> = dealt.into_iter().filter(|name| !is_labelled(name)).collect();
+        let (file, names) = (Self::file(out), listed(&waiting, SHOWN));
+        let told =
+            || format!("{}: not labelled at the moment, and nobody is asked for it: {names}", file.display());
+        (!waiting.is_empty()).then(told)
     }
 
     /// Writes it below an output folder, and tells where.
@@ -199,9 +214,8 @@ fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<ScanId>, D::Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::result::{NotLabelled, RadarRecord};
+    use crate::result::NotLabelled;
     use proptest::prelude::*;
-    use std::collections::BTreeSet;
 
     fn sequence(name: &str, detections: &[u32]) -> SequenceRecord {
         let radar =
@@ -275,8 +289,24 @@ mod tests {
         }
     }
 
+    /// `ralf label --sequence` with other settings leaves the others to be labelled again.
     #[test]
-    fn a_name_that_is_no_sequence_or_scan_is_told() {
+    fn sequences_that_are_not_labelled_at_the_moment_are_told() {
+        let out = tempfile::tempdir().unwrap();
+        let all = ["a", "b", "c"].map(|name| sequence(name, &[1; 9]));
+        let dealt = Assignment::deal(&all, &people(&["ada", "bob"]), 0.3, 0);
+        dealt.write(out.path()).unwrap();
+        assert_eq!(dealt.told_waiting(out.path(), &all), None);
+        assert_eq!(Assignment::open(out.path(), &all[..1]).unwrap().as_ref(), Some(&dealt));
+        let told = dealt.told_waiting(out.path(), &all[..1]).unwrap();
+        assert!(
+            told.ends_with("team.toml: not labelled at the moment, and nobody is asked for it: b, c"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn a_name_that_is_no_person_or_scan_is_told() {
         let out = tempfile::tempdir().unwrap();
         let labelled = [sequence("a", &[1; 9])];
         for (text, expected) in [
@@ -285,7 +315,6 @@ mod tests {
                 "[bob]\n[Bob]",
                 "[\"bob\"]: expected names that differ by more than case, found `Bob` beside it",
             ),
-            ("[ada]\nsequences = [\"b\"]", "[ada], sequences: expected labelled sequences, found `b`"),
             (
                 "[ada]\ntwice = [\"a/front/9\"]",
                 "[ada], twice: expected scans of labelled sequences, found `a/front/",

@@ -28,10 +28,17 @@ pub(crate) fn done(app: &App, edit: &Edit) -> Map<String, Value> {
 /// Nothing was written: another edit came first.
 pub(crate) fn conflict(app: &App, found: &Conflict) -> ApiError {
     let Conflict { author, at, tool, radar, scan: number, scans: states } = found;
-    let sentence = format!(
-        "{radar} scan {number}: expected no other edit, found that {author} changed it at {at} ({tool})"
-    );
-    let more = json!({ "author": author, "at": at, "tool": tool, "radar": radar, "scan": number });
+    let is_met = |state: &&ScanState| state.key.radar == *radar && state.key.scan == *number;
+    let (sentence, more) = if author.is_empty() {
+        let revision = states.iter().find(is_met).map_or(0, |state| state.revision);
+        let expected = format!("expected the revision that it has, {revision}");
+        let found = "found a later one, of which these corrections know nothing; look at it again";
+        (format!("{radar} scan {number}: {expected}, {found}"), Value::Null)
+    } else {
+        let found = format!("{author} changed it at {at} ({tool})");
+        let more = json!({ "author": author, "at": at, "tool": tool, "radar": radar, "scan": number });
+        (format!("{radar} scan {number}: expected no other edit, found that {found}"), more)
+    };
     let more = [("conflict".to_owned(), more), ("scans".to_owned(), scans(app, states))];
     ApiError::Conflict(sentence, Map::from_iter(more))
 }

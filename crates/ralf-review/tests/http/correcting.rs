@@ -212,6 +212,9 @@ fn malformed_edits_are_refused_and_leave_nothing() {
     assert!(refused(&with("tool", json!("")), 400).contains("tool"));
     assert!(refused(&with("group", json!("g".repeat(65))), 400).contains("group"));
     assert!(refused(&with("base", json!([])), 400).contains("expected the revision of radar_front scan 1"));
+    let never = refused(&stroke(1, 7, Some(99), &[0]), 409);
+    let expected = "radar_front scan 1: expected the revision that it has, 0, found a later one";
+    assert!(never.starts_with(expected), "{never}");
     assert!(refused(&stroke(1, 0, Some(99), &[1_000_000]), 400).contains("expected detections below"));
     assert!(refused(&stroke(3, 0, Some(99), &[0]), 404).contains("below 3"));
     let twice =

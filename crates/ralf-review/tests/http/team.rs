@@ -228,8 +228,10 @@ fn things_are_asked_about_and_agreement_counted_as_far_as_scans_were_dealt() {
 #[test]
 fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
     let out = Out::new();
-    let team =
-        format!("[ada]\nsequences = [\"{SEQUENCE}\"]\n[bob]\ntwice = [\"{SEQUENCE}/{RADAR}/000001\"]\n");
+    // The other sequence isn't labelled at the moment.
+    let team = format!(
+        "[ada]\nsequences = [\"{SEQUENCE}\", \"later\"]\n[bob]\ntwice = [\"{SEQUENCE}/{RADAR}/000001\", \"later/{RADAR}/000001\"]\n"
+    );
     fs::write(out.path().join("team.toml"), team).unwrap();
     let (first, second) = (out.serve(), Serving::second(out.path(), "bob").unwrap());
     let recording = first.get("/api/recording").json();

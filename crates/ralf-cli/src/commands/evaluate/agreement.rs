@@ -50,7 +50,11 @@ fn of_dealt(out: &Path, other: &Path, second: Corrections) -> anyhow::Result<Cor
     let place = |file: &Path| file.canonicalize().ok();
     let is_other = |(_, file): &(String, PathBuf)| place(file).is_some_and(|file| place(other) == Some(file));
     let Some((name, _)) = second_labellers(out)?.into_iter().find(is_other) else { return Ok(second) };
-    let dealt = Assignment::open(out, &read_record(out)?.sequences)?;
+    let labelled = read_record(out)?.sequences;
+    let dealt = Assignment::open(out, &labelled)?;
+    if let Some(sentence) = dealt.as_ref().and_then(|dealt| dealt.told_waiting(out, &labelled)) {
+        say(&sentence);
+    }
     let Some(twice) = dealt.as_ref().and_then(|dealt| dealt.twice_of(&name)) else { return Ok(second) };
     let (second, left_out) = twice.among(second);
     if left_out > 0 {
