@@ -60,6 +60,9 @@ impl Fronts {
     pub(super) fn before(&self, behind: f64, x: f64, y: f64) -> f64 {
         let (x, y) = (x - self.origin.x, y - self.origin.y);
         let range = (x * x + y * y).sqrt() - behind;
+        if !range.is_finite() {
+            return 0.0;
+        }
         let azimuth = y.atan2(x).rem_euclid(TAU) * RAYS as f64 / TAU;
         let (right, left) =
             (self.felt(azimuth as usize % RAYS, range), self.felt((azimuth as usize + 1) % RAYS, range));

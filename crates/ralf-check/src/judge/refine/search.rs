@@ -38,23 +38,21 @@ impl Place {
 /// The likeliest values, wherever they are.
 pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Place {
     let mut best = *start;
-    let quantities = || QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]);
-    for (i, quantity) in quantities() {
+    for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
         best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
     }
-    let mut place = Place::at(evidence, best);
-    for (i, quantity) in quantities() {
-        let mut axis = Values::zeros();
-        axis[i] = 1.0 / quantity.prior;
-        place = along(evidence, place, &axis, quantity.steps);
-    }
-    summit(evidence, place, open)
+    summit(evidence, Place::at(evidence, best), open)
 }
 
-/// Up from a place, along the axes of the bend there.
+/// Up from a place, along each quantity for itself and then along the axes of the bend.
 pub(super) fn summit(evidence: &Evidence, mut place: Place, open: Open) -> Place {
     for _ in 0..ROUNDS {
         let before = place.posterior;
+        for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
+            let mut axis = Values::zeros();
+            axis[i] = 1.0 / quantity.prior;
+            place = along(evidence, place, &axis, quantity.steps);
+        }
         place = Bend::at(evidence, &place, open).uphill(evidence, place);
         if place.posterior - before < HARDLY {
             break;
