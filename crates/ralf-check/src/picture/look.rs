@@ -3,6 +3,7 @@
 use super::depth_look::{DepthLook, depth_looks};
 use super::edge_map::EdgeMap;
 use super::{DepthEdge, Moment};
+use crate::thinning::evenly;
 use ralf::sensors::{Camera, ImageSizeError, Source};
 use ralf::space::Transform;
 
@@ -86,8 +87,7 @@ fn beside<'a>(times: &[i64], moments: &[Moment<'a>]) -> Vec<(usize, Moment<'a>)>
     if beside.len() < FEWEST_IMAGES {
         return Vec::new();
     }
-    let step = beside.len().div_ceil(IMAGES).max(1);
-    beside.into_iter().step_by(step).collect()
+    evenly(beside.len(), IMAGES).map(|i| beside[i]).collect()
 }
 
 impl CameraLook {

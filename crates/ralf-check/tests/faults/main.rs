@@ -107,12 +107,12 @@ fn run(title: &str, base: &Arc<Recording>, wanted: impl Fn(&Fault) -> bool) {
 
 #[test]
 fn every_fault_is_noticed_on_a_straight_road() {
-    run("30 km/h, straight", &Recording::of(STRAIGHT, 200, 1), |fault| fault.straight);
+    run("30 km/h, straight", &Recording::of(STRAIGHT, 160, 1), |fault| fault.straight);
 }
 
 #[test]
 fn every_fault_is_noticed_in_turns() {
-    run("18 km/h, turning", &Recording::of(TURNING, 200, 2), |_| true);
+    run("18 km/h, turning", &Recording::of(TURNING, 160, 2), |_| true);
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn without_lidar(base: &Arc<Recording>, with_range_rates: &[usize]) -> Planted {
 
 #[test]
 fn radars_that_see_the_same_tell_a_wrong_one() {
-    let base = Recording::of(TURNING, 200, 2);
+    let base = Recording::of(TURNING, 160, 2);
     let planted = |with_range_rates: &[usize], degrees: f64| {
         let mut planted = without_lidar(&base, with_range_rates);
         let turned = SensorChange { turn_deg: [0.0, 0.0, degrees], ..SensorChange::default() };

@@ -3,7 +3,8 @@
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample};
 use ralf_sim::{Scenario, SimulatedSequence};
-use std::sync::{Arc, OnceLock};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// Between poses, ns.
 const POSE_NS: i64 = 50_000_000;
@@ -16,12 +17,18 @@ pub struct Recording {
     images: Vec<Vec<OnceLock<CameraImage>>>,
 }
 
+/// Drives that were asked for, by the drive, its scans and its seed: several tests read the same one.
+static DRIVES: Mutex<BTreeMap<(String, usize, u64), Arc<Recording>>> = Mutex::new(BTreeMap::new());
+
 impl Recording {
     /// A drive through the street of this folder.
     pub fn of(drive: &str, scans: usize, seed: u64) -> Arc<Self> {
-        let text = format!("{}\n{drive}", include_str!("street.toml"));
-        let inner = SimulatedSequence::new("00", &Scenario::from_toml(&text).unwrap(), seed, scans).unwrap();
-        Self::simulated(inner)
+        let simulated = || {
+            let text = format!("{}\n{drive}", include_str!("street.toml"));
+            let scenario = Scenario::from_toml(&text).unwrap();
+            Self::simulated(SimulatedSequence::new("00", &scenario, seed, scans).unwrap())
+        };
+        DRIVES.lock().unwrap().entry((drive.into(), scans, seed)).or_insert_with(simulated).clone()
     }
 
     /// A sequence that is simulated already.

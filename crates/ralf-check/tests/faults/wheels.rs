@@ -82,7 +82,7 @@ fn is_noticed(title: &str, planted: &Planted, is_right: Option<fn(&Remedy) -> bo
 
 #[test]
 fn every_fault_of_odometry_beside_poses_is_noticed() {
-    let base = Recording::of(TURNING, 200, 2);
+    let base = Recording::of(TURNING, 160, 2);
     for (title, edit, is_right) in FAULTS {
         let mut planted = with_poses(&base);
         planted.edit_odometry(edit);
@@ -125,7 +125,7 @@ fn odometry_that_goes_with_its_poses_raises_nothing() {
 
 #[test]
 fn odometry_is_right_where_the_poses_are_not() {
-    let mut planted = with_poses(&Recording::of(TURNING, 200, 2));
+    let mut planted = with_poses(&Recording::of(TURNING, 160, 2));
     planted.replace_poses(|poses| {
         poses.iter_mut().for_each(|pose| pose.odom_from_vehicle.translation.vector *= 3.6);
     });

@@ -56,7 +56,8 @@ pub(super) fn judge(source: &dyn Source, sample: &Sample, unfit: &[String]) -> V
     verdicts
 }
 
-/// The order in which a radar's velocities go with the vehicle's.
+/// The order in which a radar's velocities go with the vehicle's, and better than mirrored ones do as recorded: in a
+/// slalom, another order has turns to the other side, as a mirrored radar has.
 fn by_range_rates(
     source: &dyn Source,
     looks: &[RadarLook],
@@ -74,14 +75,20 @@ fn by_range_rates(
         let misfit = |t_ns: i64, velocity: Vector2<f64>| {
             (predicted(motion, &sensor.vehicle_from_radar, t_ns) - velocity).norm().min(CAP)
         };
-        let pairs: Vec<[f64; 2]> = aside
-            .map(|(scan, fit)| [*scan, files[*scan]].map(|place| misfit(times[place], fit.velocity)))
+        // Of each scan as recorded, in the order, and as recorded of a radar whose y is mirrored.
+        let misfits: Vec<[f64; 3]> = aside
+            .map(|(scan, fit)| {
+                let [now, then] = [*scan, files[*scan]].map(|place| misfit(times[place], fit.velocity));
+                [now, then, misfit(times[*scan], Vector2::new(fit.velocity.x, -fit.velocity.y))]
+            })
             .collect();
-        let mean =
-            |which: usize| pairs.iter().map(|pair| pair[which]).sum::<f64>() / pairs.len().max(1) as f64;
-        let gains: Vec<f64> = pairs.iter().map(|[now, then]| now - then).collect();
-        let [now, then] = [mean(0), mean(1)];
-        let is_better = pairs.len() >= SCANS && then < MISFIT.0 * now && now - then > MISFIT.1;
+        let mean = |which: usize| {
+            misfits.iter().map(|misfits| misfits[which]).sum::<f64>() / misfits.len().max(1) as f64
+        };
+        let gains: Vec<f64> = misfits.iter().map(|[now, then, _]| now - then).collect();
+        let [now, then, mirrored] = [0, 1, 2].map(mean);
+        let is_better =
+            misfits.len() >= SCANS && then < MISFIT.0 * now && now - then > MISFIT.1 && then < mirrored;
         (is_better && paired_sigmas(&gains) > SIGMAS).then_some((order, now, then))
     };
     let found = Order::ALL.into_iter().filter_map(one).min_by(|a, b| a.2.total_cmp(&b.2));
