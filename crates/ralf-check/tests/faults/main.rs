@@ -107,7 +107,7 @@ fn run(title: &str, base: &Arc<Recording>, wanted: impl Fn(&Fault) -> bool) {
 
 #[test]
 fn every_fault_is_noticed_on_a_straight_road() {
-    run("30 km/h, straight", &Recording::of(STRAIGHT, 160, 1), |fault| fault.straight);
+    run("30 km/h, straight", &Recording::of(STRAIGHT, 120, 1), |fault| fault.straight);
 }
 
 #[test]

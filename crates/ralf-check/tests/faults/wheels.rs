@@ -154,7 +154,7 @@ fn a_jump_of_poses_is_no_speed() {
 fn worlds_with_odometry_and_poses_raise_nothing_of_either() {
     let mut compared = 0;
     for family in &FAMILIES {
-        let world = World::new(family, 3).sequence(0, 60).unwrap().without_cameras();
+        let world = World::new(family, 3).sequence(0, 40).unwrap().without_cameras();
         let found = check(&world);
         assert!(of_motion(&found).is_empty(), "{}: {}", family.name, told(&found));
         let compares = |verdict: &Verdict| verdict.evidence.contains("of the speed of the poses");

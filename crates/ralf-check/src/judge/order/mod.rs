@@ -12,18 +12,20 @@ use crate::overlap::Tally;
 use crate::remedy::Remedy;
 use crate::sample::{RadarLook, Sample};
 use crate::statistics::paired_sigmas;
-use crate::velocity_fit::TRUSTED;
+use crate::velocity_fit::{TRUSTED, VelocityFit};
 use crate::verdict::{Question, Verdict};
 use nalgebra::Vector2;
 use orders::{Order, Orders};
 use ralf::sensors::Source;
-use ralf::space::EgoMotion;
+use ralf::space::{EgoMotion, Transform};
 use scans::{Of, Scans};
 
 /// In the other order so many times as many detections lie beside the LiDAR's points.
 const GAIN: f64 = 1.3;
 /// Of range rates this share of the misfit is left, and so much of it goes, m/s.
 const MISFIT: (f64, f64) = (0.6, 0.3);
+/// Velocities are at odds with the vehicle's from this on, mean, m/s.
+const AT_ODDS: f64 = 1.0;
 /// What a single scan's range rates can add, m/s.
 const CAP: f64 = 3.0;
 /// By so many standard errors.
@@ -67,14 +69,11 @@ fn by_range_rates(
 ) -> Option<(Order, Verdict)> {
     let times = &source.sequence().times.radars[radar];
     let sensor = &source.sequence().rig.radars[radar];
-    let told: Vec<_> = looks.iter().filter_map(|look| Some((look.scan, look.fit?))).collect();
-    let told: Vec<_> = told.into_iter().filter(|(_, fit)| fit.inliers >= TRUSTED).collect();
+    let told = told_velocities(looks);
     let one = |order: Order| {
         let files = &orders.get(order, times.len()).files;
         let aside = told.iter().filter(|(scan, _)| times[files[*scan]].abs_diff(times[*scan]) > ASIDE_NS);
-        let misfit = |t_ns: i64, velocity: Vector2<f64>| {
-            (predicted(motion, &sensor.vehicle_from_radar, t_ns) - velocity).norm().min(CAP)
-        };
+        let misfit = |t_ns, velocity| misfit(motion, &sensor.vehicle_from_radar, t_ns, velocity);
         // Of each scan as recorded, in the order, and as recorded of a radar whose y is mirrored.
         let misfits: Vec<[f64; 3]> = aside
             .map(|(scan, fit)| {
@@ -100,10 +99,34 @@ fn by_range_rates(
     })
 }
 
+/// Scans with the velocities that they tell for sure.
+fn told_velocities(looks: &[RadarLook]) -> Vec<(usize, VelocityFit)> {
+    let told = looks.iter().filter_map(|look| Some((look.scan, look.fit?)));
+    told.filter(|(_, fit)| fit.inliers >= TRUSTED).collect()
+}
+
+/// How far a radar's velocity at a time is from the vehicle's, m/s.
+fn misfit(motion: &EgoMotion, vehicle_from_radar: &Transform, t_ns: i64, velocity: Vector2<f64>) -> f64 {
+    (predicted(motion, vehicle_from_radar, t_ns) - velocity).norm().min(CAP)
+}
+
+/// Whether a radar's velocities don't go with the vehicle's. Where no order explains it, something else is wrong, and
+/// what lies beside the LiDAR's points in another order does so by chance.
+fn is_at_odds(source: &dyn Source, sample: &Sample, radar: usize, motion: &EgoMotion) -> bool {
+    let sequence = source.sequence();
+    let (times, mount) = (&sequence.times.radars[radar], &sequence.rig.radars[radar].vehicle_from_radar);
+    let told = told_velocities(&sample.radars[radar]);
+    let misfits = told.iter().map(|(scan, fit)| misfit(motion, mount, times[*scan], fit.velocity));
+    told.len() >= SCANS && misfits.sum::<f64>() > AT_ODDS * told.len() as f64
+}
+
 /// A LiDAR, as all radars see it; else a radar, as the LiDARs see it; else all of them at once.
 fn by_what_both_see(scans: &mut Scans, radars: &[usize], lidars: &[usize]) -> Vec<Verdict> {
-    let rig = &scans.source.sequence().rig;
-    let unknown: Vec<usize> = radars.iter().copied().filter(|radar| scans.found[*radar].is_none()).collect();
+    let (source, sample, motion) = (scans.source, scans.sample, scans.motion);
+    let rig = &source.sequence().rig;
+    let is_unknown =
+        |radar: &usize| scans.found[*radar].is_none() && !is_at_odds(source, sample, *radar, motion);
+    let unknown: Vec<usize> = radars.iter().copied().filter(is_unknown).collect();
     let of_radars = unknown.iter().map(|radar| &rig.radars[*radar].name);
     let of_lidars = lidars.iter().map(|lidar| &rig.lidars[*lidar].name);
     let mut verdicts = Vec::new();

@@ -23,8 +23,8 @@ const FEW: usize = 4;
 /// What was read of a recording, and what else is.
 pub(super) struct Scans<'a> {
     pub(super) source: &'a dyn Source,
-    sample: &'a Sample,
-    motion: &'a EgoMotion,
+    pub(super) sample: &'a Sample,
+    pub(super) motion: &'a EgoMotion,
     /// Of each radar, the order that was found.
     pub(super) found: Vec<Option<Order>>,
     orders: &'a Orders,
