@@ -3,7 +3,7 @@
 use super::depth_look::{DepthLook, depth_looks};
 use super::edge_map::EdgeMap;
 use super::{DepthEdge, Moment};
-use crate::thinning::evenly;
+use crate::thinning::spread;
 use ralf::sensors::{Camera, ImageSizeError, Source};
 use ralf::space::Transform;
 
@@ -87,7 +87,7 @@ fn beside<'a>(times: &[i64], moments: &[Moment<'a>]) -> Vec<(usize, Moment<'a>)>
     if beside.len() < FEWEST_IMAGES {
         return Vec::new();
     }
-    evenly(beside.len(), IMAGES).map(|i| beside[i]).collect()
+    spread(beside.len(), IMAGES).into_iter().map(|i| beside[i]).collect()
 }
 
 impl CameraLook {

@@ -5,6 +5,7 @@ mod radar;
 mod shape;
 
 use crate::picture::{Moment, Pictures};
+use crate::thinning::spread;
 pub(crate) use lidar::LidarLook;
 pub(crate) use radar::RadarLook;
 use ralf::sensors::Source;
@@ -87,14 +88,6 @@ impl Sample {
     }
 }
 
-/// So many indices, evenly over a list; all of a short one.
-fn spread(length: usize, count: usize) -> Vec<usize> {
-    if length <= count {
-        return (0..length).collect();
-    }
-    (0..count).map(|i| i * (length - 1) / (count - 1).max(1)).collect()
-}
-
 /// Scans evenly over a timeline, each with the one that comes [`LAG_NS`] later.
 fn paired(times: &[i64]) -> BTreeSet<usize> {
     let later = |scan: usize| times.partition_point(|t| *t < times[scan].saturating_add(LAG_NS));
@@ -113,13 +106,6 @@ pub(crate) fn nearest(times: &[i64], t_ns: i64) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn scans_are_spread_from_the_first_to_the_last() {
-        assert_eq!(spread(3, 5), [0, 1, 2]);
-        assert_eq!(spread(101, 5), [0, 25, 50, 75, 100]);
-        assert!(spread(0, 5).is_empty());
-    }
 
     #[test]
     fn pairs_are_half_a_second_apart_and_a_lonely_scan_is_taken_too() {

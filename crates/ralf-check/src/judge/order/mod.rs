@@ -112,20 +112,18 @@ fn misfit(motion: &EgoMotion, vehicle_from_radar: &Transform, t_ns: i64, velocit
 
 /// Whether a radar's velocities don't go with the vehicle's. Where no order explains it, something else is wrong, and
 /// what lies beside the LiDAR's points in another order does so by chance.
-fn is_at_odds(source: &dyn Source, sample: &Sample, radar: usize, motion: &EgoMotion) -> bool {
-    let sequence = source.sequence();
+fn is_at_odds(scans: &Scans, radar: usize) -> bool {
+    let sequence = scans.source.sequence();
     let (times, mount) = (&sequence.times.radars[radar], &sequence.rig.radars[radar].vehicle_from_radar);
-    let told = told_velocities(&sample.radars[radar]);
-    let misfits = told.iter().map(|(scan, fit)| misfit(motion, mount, times[*scan], fit.velocity));
+    let told = told_velocities(&scans.sample.radars[radar]);
+    let misfits = told.iter().map(|(scan, fit)| misfit(scans.motion, mount, times[*scan], fit.velocity));
     told.len() >= SCANS && misfits.sum::<f64>() > AT_ODDS * told.len() as f64
 }
 
 /// A LiDAR, as all radars see it; else a radar, as the LiDARs see it; else all of them at once.
 fn by_what_both_see(scans: &mut Scans, radars: &[usize], lidars: &[usize]) -> Vec<Verdict> {
-    let (source, sample, motion) = (scans.source, scans.sample, scans.motion);
-    let rig = &source.sequence().rig;
-    let is_unknown =
-        |radar: &usize| scans.found[*radar].is_none() && !is_at_odds(source, sample, *radar, motion);
+    let rig = &scans.source.sequence().rig;
+    let is_unknown = |radar: &usize| scans.found[*radar].is_none() && !is_at_odds(scans, *radar);
     let unknown: Vec<usize> = radars.iter().copied().filter(is_unknown).collect();
     let of_radars = unknown.iter().map(|radar| &rig.radars[*radar].name);
     let of_lidars = lidars.iter().map(|lidar| &rig.lidars[*lidar].name);
