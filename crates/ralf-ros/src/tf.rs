@@ -9,8 +9,8 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// How far the length of a rotation's quaternion may be from 1.
-const UNIT_TOLERANCE: f64 = 1e-3;
+/// How far the length of a rotation's quaternion may be from 1: people type them with two digits.
+const UNIT_TOLERANCE: f64 = 1e-2;
 
 /// Two places of a frame nearer than this, m and rad, are one. An encoder of twelve bits tells what stands still by
 /// steps of 0.088 deg, and so moves the end of a mast of 3 m by 4.6 mm; what 4-byte numbers round is far below.
@@ -119,6 +119,16 @@ enum Motion {
     Moving(Vec<(i64, Isometry3<f64>)>),
 }
 
+impl Motion {
+    /// Whether it was never told to be anywhere else.
+    fn stays_at(&self, place: &Isometry3<f64>) -> bool {
+        match self {
+            Self::Static(known) => is_same_place(known, place),
+            Self::Moving(known) => known.iter().all(|(_, known)| is_same_place(known, place)),
+        }
+    }
+}
+
 /// Whether a transform holds for all times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -153,10 +163,13 @@ impl TfTree {
             return Err(TfError::TwoParents { child: child.to_owned(), first, second });
         }
         match (&mut edge.parent_from_child, kind) {
-            // Told again, perhaps in other digits.
-            (Motion::Static(known), Kind::Static) if is_same_place(known, &parent_from_child) => {}
+            // Told again, perhaps in other digits, or as what moves by a publisher that knows no other kind.
+            (Motion::Static(known), _) if is_same_place(known, &parent_from_child) => {}
             (Motion::Moving(known), Kind::Moving) => {
                 insert(known, message.header.stamp_ns, parent_from_child)
+            }
+            (known, Kind::Static) if known.stays_at(&parent_from_child) => {
+                *known = Motion::Static(parent_from_child);
             }
             _ => return Err(TfError::Changed { parent: parent.to_owned(), child: child.to_owned() }),
         }
@@ -456,7 +469,7 @@ mod tests {
         }
         let error = add(stamped("base", "lidar", 9, [0.0, -2.0, 0.0], 0.0), Kind::Static).unwrap_err();
         assert!(error.contains("lidar in base"), "{error}");
-        assert!(add(stamped("base", "lidar", 9, [0.0, -1.0, 0.0], 0.0), Kind::Moving).is_err());
+        assert!(add(stamped("base", "lidar", 9, [0.0, -1.5, 0.0], 0.0), Kind::Moving).is_err());
         let error = add(stamped("mast", "lidar", 0, [0.0, -1.0, 0.0], 0.0), Kind::Static).unwrap_err();
         assert_eq!(error, "lidar: expected one parent, found base and mast");
         assert!(add(stamped("base", "base", 0, [0.0; 3], 0.0), Kind::Static).is_err());
@@ -466,5 +479,35 @@ mod tests {
         unturned.transform.orientation = [0.0; 4];
         assert!(add(unturned, Kind::Static).unwrap_err().contains("unit quaternion"));
         assert!(!tree.frames().contains(&"new"));
+    }
+
+    #[test]
+    fn what_stays_may_be_told_on_either_topic() {
+        let mut tree = TfTree::default();
+        let mut add =
+            |x: f64, t_ns, kind| tree.add(&stamped("base", "radar", t_ns, [x, 0.0, 0.0], 0.0), kind);
+        for (x, t_ns, kind) in [(3.0, 5, Kind::Moving), (3.001, 9, Kind::Moving), (3.0, 0, Kind::Static)] {
+            assert_eq!(add(x, t_ns, kind), Ok(()));
+        }
+        assert_eq!(add(3.0, 12, Kind::Moving), Ok(()));
+        assert!(add(3.1, 13, Kind::Moving).is_err(), "it was said to be static");
+        close(&tree.lookup("base", "radar", -7).unwrap(), [0.0; 3], [3.0, 0.0, 0.0]);
+        let mut moved = tree_of_a_moving_radar();
+        assert!(moved.add(&stamped("base", "radar", 0, [3.0, 0.0, 0.0], 0.0), Kind::Static).is_err());
+        let error = moved.lookup("base", "radar", 0).unwrap_err().to_string();
+        assert!(error.contains("known from 5 to 9 ns"), "what was refused changes nothing: {error}");
+    }
+
+    fn tree_of_a_moving_radar() -> TfTree {
+        tree(&[5, 9].map(|t_ns| (stamped("base", "radar", t_ns, [t_ns as f64, 0.0, 0.0], 0.0), Kind::Moving)))
+    }
+
+    #[test]
+    fn rotations_typed_with_two_digits_are_turned_right() {
+        let mut by_hand = stamped("base", "radar", 0, [0.0; 3], 0.0);
+        by_hand.transform.orientation = [0.0, 0.0, 0.71, 0.71];
+        let mut tree = TfTree::default();
+        tree.add(&by_hand, Kind::Static).unwrap();
+        close(&tree.lookup("base", "radar", 0).unwrap(), [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     }
 }

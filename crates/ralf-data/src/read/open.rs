@@ -61,7 +61,7 @@ const FORMATS: [Format; 10] = [
         holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
         knows_truth: false,
         recognises: view_of_delft::recognises,
-        open: |path, _, _| view_of_delft::open(path),
+        open: |path, _, names| view_of_delft::open(path, names),
     },
     Format {
         name: aimotive::NAME,
@@ -126,7 +126,7 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
 }
 
 /// Opens the sequences of these names of a recording, all where none is named. Others may be damaged where each
-/// sequence has files of its own: not in View-of-Delft and ROS, and not in the tables of nuScenes and MAN TruckScenes,
+/// sequence has files of its own: not in ROS, and not in the tables of nuScenes and MAN TruckScenes,
 /// which tell of all.
 ///
 /// # Errors

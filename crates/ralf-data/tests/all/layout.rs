@@ -196,7 +196,6 @@ const WRONG_SETTINGS: &[(&str, &str, &str)] = &[
     ("\"radar_rear\"", "\"ground_truth\"", "expected the plain name"),
     ("\"rcs\"", "\"w_lm\"", "fields: expected names that no column of the output has, found `w_lm`"),
     ("\"rcs\"", "\"doppler\"", "fields: expected each name once, found `doppler`"),
-    ("\"x\", \"y\", \"z\"", "\"x\", \"y\", \"z\", \"range\", \"azimuth\", \"elevation\"", "found both in"),
     ("\"x\", \"y\", \"z\"", "\"x\", \"y\"", "found neither in"),
     ("lowest_beam_deg = 25.0", "lowest_beam_deg = 0", "`lowest_beam_deg` above 0 and up to 90, found 0"),
     (
@@ -304,10 +303,30 @@ fn what_has_no_meaning_is_a_warning() {
     write(&path.join("sequence.toml"), SEQUENCE_TOML.replace("fx = ", "lens = \"wide\"\nfx = "));
     write(&path.join("lidar_top/000007.label"), "");
     write(&path.join("lidar_top/000007.time"), "");
+    write(&path.join("radar_left/timestamps.txt"), "");
+    write(&path.join("notes/timestamps.md"), "");
     let warnings = LayoutSequence::open(&path).unwrap().warnings().join("\n");
     assert!(warnings.contains("sequence.toml: unknown key `camera.0.lens` ignored"), "{warnings}");
     assert!(warnings.contains("000007.label: belongs to no measurement, ignored"), "{warnings}");
     assert!(warnings.contains("000007.time: belongs to no measurement, ignored"), "{warnings}");
+    assert!(
+        warnings.contains("no table of sequence.toml names, and that are not read: radar_left"),
+        "{warnings}"
+    );
+    assert!(!warnings.contains("notes"), "{warnings}");
+}
+
+#[test]
+fn polar_coordinates_beside_x_and_y_give_no_place() {
+    let (_folder, path) = tiny();
+    let fields = "\"power\", \"azimuth\", \"range\"";
+    assert!(SEQUENCE_TOML.contains(fields));
+    let both = SEQUENCE_TOML.replacen(fields, "\"x\", \"y\", \"azimuth\", \"range\"", 1);
+    write(&path.join("sequence.toml"), both);
+    write(&path.join("radar_rear/000003.bin"), floats(&[3.0, 4.0, 28.6, 500.0]));
+    let scan = LayoutSequence::open(&path).unwrap().radar_scan(1, 0).unwrap();
+    assert_eq!((scan.positions[0].x, scan.positions[0].y, scan.spherical[0].range), (3.0, 4.0, 5.0));
+    assert_eq!(scan.columns, [[3.0], [4.0], [28.6], [500.0]], "in whatever unit");
 }
 
 fn refused(sequence: &Path, expected: &str) {

@@ -3,7 +3,6 @@
 use super::Schema;
 use super::catalogue::{Catalogue, Channel, MessageRef};
 use super::database::{self, refused};
-use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::ContainerError;
 use super::loss::Loss;
 use rusqlite::{Connection, Row};
@@ -12,9 +11,6 @@ use std::sync::{Mutex, PoisonError};
 
 /// What an SQLite file begins with.
 pub(super) const MAGIC: &[u8] = b"SQLite format 3\0";
-
-/// What a message begins with that was compressed by itself; CDR begins with a 0.
-const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 #[derive(Debug)]
 pub(super) struct Db3File {
@@ -65,18 +61,7 @@ impl Db3File {
             .and_then(|mut statement| statement.query_row([id], |row| row.get(0)))
             .map_err(refused(&self.path, &place))?;
         drop(connection);
-        if !bytes.starts_with(&ZSTD_MAGIC) {
-            return Ok(bytes);
-        }
-        let (bytes, failed) = Compression::Zstd.decompress_beginning(bytes, CHUNK_BYTES);
-        match failed {
-            None if bytes.len() as u64 <= CHUNK_BYTES => Ok(bytes),
-            failed => {
-                let found = failed.map_or_else(|| "a larger one".to_owned(), |error| error.to_string());
-                let expected = format!("a message of at most {CHUNK_BYTES} bytes, compressed by zstd");
-                Err(ContainerError::content(&self.path, place, expected, found))
-            }
-        }
+        Ok(bytes)
     }
 }
 

@@ -6,6 +6,8 @@ use std::io::{self, Read};
 
 /// The largest chunk that is read, decompressed. Recorders write chunks of about 1 MB.
 pub(super) const CHUNK_BYTES: u64 = 1 << 30;
+/// What zstd writes begins with this.
+const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// How a chunk is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +51,22 @@ impl Compression {
                 Ok(decoder) => drain(decoder, size),
                 Err(error) => (Vec::new(), Some(error)),
             },
+        }
+    }
+}
+
+/// A message of ROS 2 as its recorder got it: some recorders compress each one. No message of theirs begins as what
+/// zstd wrote does. The error says what is wrong.
+pub(super) fn message(stored: Vec<u8>) -> Result<Vec<u8>, (String, String)> {
+    if !stored.starts_with(&ZSTD_MAGIC) {
+        return Ok(stored);
+    }
+    let (bytes, failed) = Compression::Zstd.decompress_beginning(stored, CHUNK_BYTES);
+    match failed {
+        None if bytes.len() as u64 <= CHUNK_BYTES => Ok(bytes),
+        failed => {
+            let found = failed.map_or_else(|| "a larger one".to_owned(), |error| error.to_string());
+            Err((format!("a message of at most {CHUNK_BYTES} bytes, compressed by zstd"), found))
         }
     }
 }

@@ -144,10 +144,18 @@ impl Container {
 
     /// The bytes of a message, in its topic's encoding.
     pub fn read(&self, message: &MessageRef) -> Result<Vec<u8>, ContainerError> {
-        match &self.parts[message.file as usize] {
+        let stored = match &self.parts[message.file as usize] {
             Part::Chunked(file) => file.read(message),
             Part::Db3(file) => file.read(message),
+        }?;
+        let topic = &self.topics[message.topic()];
+        if topic.known_encoding() != Some(Encoding::Cdr) {
+            return Ok(stored);
         }
+        decompress::message(stored).map_err(|(expected, found)| {
+            let place = format!("message of {} at {} ns", topic.name, message.log_ns);
+            ContainerError::content(&self.files[message.file as usize], place, expected, found)
+        })
     }
 
     fn add(&mut self, file: usize) -> Result<(), ContainerError> {

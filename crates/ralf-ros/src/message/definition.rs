@@ -8,6 +8,8 @@ use std::fmt::Write;
 pub struct Definition {
     /// Package and name, such as `sensor_msgs/PointCloud2`.
     pub name: &'static str,
+    /// What it was called earlier, with the same fields.
+    earlier: Option<&'static str>,
     /// The checksum by which ROS 1 tells versions of a type apart.
     pub md5: &'static str,
     /// A field per line, as ROS 1 writes them.
@@ -25,7 +27,7 @@ impl Definition {
         fields: &'static str,
         parts: &'static [&'static Self],
     ) -> Self {
-        Self { name, md5, ros1: fields, ros2: None, parts }
+        Self { name, earlier: None, md5, ros1: fields, ros2: None, parts }
     }
 
     /// A type that is only ever part of another one, and so needs no checksum.
@@ -41,6 +43,10 @@ impl Definition {
         Self { ros2: Some(fields), ..self }
     }
 
+    pub(super) const fn earlier_called(self, name: &'static str) -> Self {
+        Self { earlier: Some(name), ..self }
+    }
+
     /// The type's name as files of this encoding spell it: `pkg/Type` in ROS 1, `pkg/msg/Type` in ROS 2.
     pub fn type_name(&self, encoding: Encoding) -> String {
         match encoding {
@@ -49,9 +55,10 @@ impl Definition {
         }
     }
 
-    /// Whether a file's type name is this type, in either spelling.
+    /// Whether a file's type name is this type, in either spelling, or by an earlier name.
     pub fn is(&self, type_name: &str) -> bool {
         [Encoding::Ros1, Encoding::Cdr].into_iter().any(|encoding| self.type_name(encoding) == type_name)
+            || self.earlier == Some(type_name)
     }
 
     /// The fields, followed by those of every type that they are made of: what bags hold, and MCAP as `ros1msg` or

@@ -39,7 +39,8 @@ static TF_MESSAGE: Definition = Definition::new(
     "94810edda583a504dfda3829e70d7eec",
     "geometry_msgs/TransformStamped[] transforms",
     &[&TRANSFORM_STAMPED],
-);
+)
+.earlier_called("tf/tfMessage");
 
 impl TransformStamped {
     fn decode(decoder: &mut Decoder<'_>) -> Result<Self, EncodingError> {

@@ -19,8 +19,8 @@ pub struct RadarScan {
 impl RadarScan {
     /// A scan from its columns, one per field of the radar, all equally long.
     ///
-    /// Coordinates come from the fields `x`, `y`, `z` or `range`, `azimuth`, `elevation` (m, rad); of a radar without
-    /// elevation the third is not needed, and ignored. The error says what is wrong with the columns.
+    /// Coordinates come from the fields `x`, `y`, `z` or, without these, `range`, `azimuth`, `elevation` (m, rad); of a
+    /// radar without elevation the third is not needed, and ignored. The error says what is wrong with the columns.
     pub fn new(radar: &Radar, t_ns: i64, columns: Vec<Vec<f32>>) -> Result<Self, String> {
         if columns.len() != radar.fields.len() {
             return Err(format!("expected {} columns, found {}", radar.fields.len(), columns.len()));
@@ -62,18 +62,17 @@ impl Coordinates {
             let [first, second] = [radar.column(names[0])?, radar.column(names[1])?];
             (third(names[2]).is_some() || !measured).then_some((first, second, third(names[2])))
         };
-        match (of_kind(["x", "y", "z"]), of_kind(["range", "azimuth", "elevation"])) {
-            (Some((x, y, z)), None) => Ok(Self::Cartesian { x, y, z }),
-            (None, Some((range, azimuth, elevation))) => Ok(Self::Spherical { range, azimuth, elevation }),
-            (found, _) => {
-                let found = if found.is_some() { "both" } else { "neither" };
-                Err(format!(
-                    "expected the fields x, y, z or range, azimuth, elevation (the third only where elevation is \
-                     measured), found {found} in {:?}",
-                    radar.fields
-                ))
-            }
+        if let Some((x, y, z)) = of_kind(["x", "y", "z"]) {
+            return Ok(Self::Cartesian { x, y, z });
         }
+        let spherical = of_kind(["range", "azimuth", "elevation"]).ok_or_else(|| {
+            format!(
+                "expected the fields x, y, z or range, azimuth, elevation (the third only where elevation is \
+                 measured), found neither in {:?}",
+                radar.fields
+            )
+        });
+        spherical.map(|(range, azimuth, elevation)| Self::Spherical { range, azimuth, elevation })
     }
 
     fn position(self, columns: &[Vec<f32>], row: usize) -> Point {
@@ -99,7 +98,7 @@ impl Coordinates {
     }
 }
 
-/// Checks that a radar's fields name one kind of coordinates, completely. The error says what was expected.
+/// Checks that a radar's fields name a kind of coordinates, completely. The error says what was expected.
 pub fn check_fields(radar: &Radar) -> Result<(), String> {
     Coordinates::for_radar(radar).map(drop)
 }

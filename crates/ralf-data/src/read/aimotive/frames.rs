@@ -37,74 +37,116 @@ pub(super) fn number(digits: &str) -> Option<u64> {
     Some(digits).filter(|digits| digits.bytes().all(|b| b.is_ascii_digit()))?.parse().ok()
 }
 
+/// A frame is so much later than its LiDAR's first point, ns, as measured on the published sample. It counts where no
+/// boxes tell it.
+const AFTER_FIRST_POINT_NS: i64 = 67_600_000;
+/// So many frames tell it of a sequence.
+const COMPARED: usize = 15;
+
 /// When each frame was, ns, and the files that tell it.
 pub(super) struct FrameTimes {
     pub(super) times: BTreeMap<u64, i64>,
-    /// The files of boxes; none where the LiDAR tells the times.
+    /// The files of boxes that tell times.
     pub(super) boxes: Vec<PathBuf>,
     pub(super) warning: Option<String>,
 }
 
 impl FrameTimes {
-    /// From the boxes, if each of these frames has some; else from the LiDAR.
+    /// From the boxes; of frames without, from the LiDAR's first point, and where there is none, from those around.
     pub(super) fn read(folder: &Path, frames: &BTreeSet<u64>, lidar: &Frames) -> Result<Self, DataError> {
-        let box_folder = folder.join("dynamic/box/3d_body");
-        let boxes = list(&box_folder, "frame", "json")?;
-        let missing = frames.iter().filter(|frame| !boxes.contains_key(frame)).count();
-        let found = if missing == 0 {
-            Self::of_boxes(frames, &boxes)?
-        } else {
-            Self::of_lidar(folder, frames, lidar, missing)?
-        };
-        let mut pairs = found.times.iter().zip(found.times.iter().skip(1));
-        match pairs.find(|((_, before), (_, after))| after <= before) {
-            Some(((_, before), (frame, after))) => {
-                let expected = format!("a time after {before} ns, that of the frame before");
-                Err(DataError::content(folder, format!("frame {frame}"), expected, format!("{after} ns")))
-            }
-            None => Ok(found),
-        }
-    }
-
-    fn of_boxes(frames: &BTreeSet<u64>, boxes: &Frames) -> Result<Self, DataError> {
-        let used: Vec<(u64, PathBuf)> = boxes
-            .iter()
-            .filter(|(frame, _)| frames.contains(frame))
-            .map(|(n, file)| (*n, file.clone()))
-            .collect();
+        let mut boxes = list(&folder.join("dynamic/box/3d_body"), "frame", "json")?;
+        boxes.retain(|frame, _| frames.contains(frame));
         let mut times = BTreeMap::new();
-        for (frame, file) in &used {
+        for (frame, file) in &boxes {
             let BoxFile { t_ns } = json::read(file, Kind::Measurement, "boxes with a Timestamp in ns")?;
             times.insert(*frame, t_ns);
         }
-        Ok(Self { times, boxes: used.into_iter().map(|(_, file)| file).collect(), warning: None })
-    }
-
-    fn of_lidar(
-        folder: &Path,
-        frames: &BTreeSet<u64>,
-        lidar: &Frames,
-        missing: usize,
-    ) -> Result<Self, DataError> {
-        let mut times = BTreeMap::new();
-        for frame in frames {
-            let untold = || {
-                let expected = "boxes of every frame, or a LiDAR file of every frame, to tell their times";
-                DataError::content(&folder.join("dynamic"), format!("frame {frame}"), expected, "neither")
-            };
-            let file = lidar.get(frame).ok_or_else(untold)?;
-            let first = laz::read_first(file)?;
-            let first =
-                first.ok_or_else(|| DataError::content(file, "points", "a point with a time", "none"))?;
-            times.insert(*frame, time_of_point(file, first.gps_time)?);
+        let without: Vec<u64> = frames.iter().copied().filter(|frame| !times.contains_key(frame)).collect();
+        let mut warning = None;
+        if !without.is_empty() {
+            let later_ns = after_first_point(&times, lidar)?;
+            warning = Some(warning_of(&without, frames.len(), later_ns));
+            add_by_lidar(&mut times, &without, lidar, later_ns)?;
+            add_between(folder, &mut times, frames)?;
         }
-        let warning = format!(
-            "{missing} of {} frames have no boxes, whose timestamps are the frames' times: these are taken from the \
-             LiDAR's first points",
-            frames.len()
-        );
-        Ok(Self { times, boxes: Vec::new(), warning: Some(warning) })
+        check_order(folder, &times)?;
+        Ok(Self { times, boxes: boxes.into_values().collect(), warning })
     }
+}
+
+fn warning_of(without: &[u64], all: usize, later_ns: i64) -> String {
+    let (missing, later_ms) = (without.len(), later_ns as f64 * 1e-6);
+    format!(
+        "{missing} of {all} frames have no boxes, whose timestamps are the frames' times: they are taken to be \
+         {later_ms:.1} ms after the LiDAR's first point, or as far apart as the others"
+    )
+}
+
+/// By how much frames are later than their LiDAR's first point: the median of those that have boxes, ns.
+fn after_first_point(by_boxes: &BTreeMap<u64, i64>, lidar: &Frames) -> Result<i64, DataError> {
+    let both = by_boxes.iter().filter_map(|(frame, t_ns)| Some((*t_ns, lidar.get(frame)?)));
+    let mut later = Vec::new();
+    for (t_ns, file) in both.take(COMPARED) {
+        later.extend(first_point(file)?.map(|first| t_ns.saturating_sub(first)));
+    }
+    later.sort_unstable();
+    Ok(later.get(later.len() / 2).copied().unwrap_or(AFTER_FIRST_POINT_NS))
+}
+
+fn add_by_lidar(
+    times: &mut BTreeMap<u64, i64>,
+    without: &[u64],
+    lidar: &Frames,
+    later_ns: i64,
+) -> Result<(), DataError> {
+    for frame in without {
+        if let Some(first) = lidar.get(frame).map_or(Ok(None), |file| first_point(file))? {
+            times.insert(*frame, first.saturating_add(later_ns));
+        }
+    }
+    Ok(())
+}
+
+/// The time of frames of which neither boxes nor points tell it: as if numbers and times went by equal steps between
+/// the two told ones around, or beyond the two outermost.
+fn add_between(
+    folder: &Path,
+    times: &mut BTreeMap<u64, i64>,
+    frames: &BTreeSet<u64>,
+) -> Result<(), DataError> {
+    let told: Vec<(u64, i64)> = times.iter().map(|(frame, t_ns)| (*frame, *t_ns)).collect();
+    for frame in frames.iter().filter(|frame| !told.iter().any(|(known, _)| known == *frame)) {
+        let after = told.partition_point(|(known, _)| known < frame);
+        let first = after.saturating_sub(1).min(told.len().saturating_sub(2));
+        let Some([(n0, t0), (n1, t1)]) = told.get(first..first + 2) else {
+            let expected = "boxes or LiDAR files of two frames or more, to tell the frames' times";
+            return Err(DataError::content(
+                &folder.join("dynamic"),
+                format!("frame {frame}"),
+                expected,
+                "none",
+            ));
+        };
+        let share = (*frame as f64 - *n0 as f64) / (n1 - n0) as f64;
+        times.insert(*frame, t0.saturating_add((share * t1.saturating_sub(*t0) as f64).round() as i64));
+    }
+    Ok(())
+}
+
+fn check_order(folder: &Path, times: &BTreeMap<u64, i64>) -> Result<(), DataError> {
+    let mut pairs = times.iter().zip(times.iter().skip(1));
+    match pairs.find(|((_, before), (_, after))| after <= before) {
+        Some(((_, before), (frame, after))) => {
+            let expected = format!("a time after {before} ns, that of the frame before");
+            Err(DataError::content(folder, format!("frame {frame}"), expected, format!("{after} ns")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// When the first point of a LiDAR's file was measured, ns; `None` of a file without one.
+fn first_point(file: &Path) -> Result<Option<i64>, DataError> {
+    laz::read_first(file)?.map(|first| time_of_point(file, first.gps_time)).transpose()
 }
 
 /// The time of a point as the files have it, ns.

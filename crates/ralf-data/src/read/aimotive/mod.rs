@@ -3,8 +3,8 @@
 //! - The path is a sequence's folder, one of sequences (an environment such as `highway`), or what holds `train` and
 //!   `val`. A sequence is named after its folder.
 //! - All files of a frame have its number. A frame's time is the `Timestamp` of its boxes, ns, the clock that the
-//!   LiDAR's points have; where a measured frame has no such file, all frames take the time of their LiDAR's first
-//!   point, with a warning. The times in `egomotion2.json` are of other clocks and not used.
+//!   LiDAR's points have; where a measured frame has no such file, it is as much later than its LiDAR's first point as
+//!   the others are, with a warning. The times in `egomotion2.json` are of other clocks and not used.
 //! - Radar scans have no times of their own and get their frame's. `corrections.NAME.time_offset_ms` of the settings
 //!   says when they were truly made. Columns are as published (`speed` is `doppler`, the raw range rate; `rcs`, in
 //!   square metres, is `rcs_linear`), and two are derived: `rcs` in dBsm and `snr`, power minus noise, in dB.

@@ -11,7 +11,7 @@ use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
 use crate::read::point_times::LONGEST;
 use crate::read::view_origin::refuse_other;
-use crate::tree::{self, CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS};
+use crate::tree::{self, CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS, TIMES};
 use ralf::sensors::{
     Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines,
@@ -53,6 +53,7 @@ impl LayoutSequence {
         let rig = rig::rig(&toml_file, &toml)?;
         warnings.extend(odd_lenses(&toml_file, &rig));
         let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
+        warnings.extend(unnamed(folder, &rig)?);
         if cameras.iter().any(|files| files.has_partners(FIRST)) {
             warnings.extend(contradicted(&toml_file, toml.depth.output));
         }
@@ -128,6 +129,21 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
     let cameras =
         rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, &of_images(name)));
     Ok([radars, lidars, cameras.collect::<Result<_, _>>()?])
+}
+
+/// Folders of measurements that no table of `sequence.toml` names, which are not read.
+fn unnamed(folder: &Path, rig: &Rig) -> Result<Option<String>, DataError> {
+    let radars = rig.radars.iter().map(|radar| &radar.name);
+    let others = rig.lidars.iter().map(|lidar| &lidar.name);
+    let named: Vec<_> = radars.chain(others).chain(rig.cameras.iter().map(|camera| &camera.name)).collect();
+    let is_named = |name: &String| named.contains(&name);
+    let mut names = files::folders(folder)?;
+    names.retain(|name| name != GROUND_TRUTH && !is_named(name) && folder.join(name).join(TIMES).is_file());
+    let sentence = |names: String| {
+        let what = format!("folders with {TIMES} that no table of {SENSORS} names, and that are not read");
+        format!("{}: {what}: {names}", folder.display())
+    };
+    Ok(Some(names.join(", ")).filter(|names| !names.is_empty()).map(sentence))
 }
 
 /// When the first radar scan was made, ns.

@@ -4,6 +4,7 @@ use super::messages::Messages;
 use super::point_clock::{PointClock, Told};
 use crate::error::DataError;
 use crate::read::radial::{radial, radial_3d};
+use ralf::scene::Doppler;
 use ralf::sensors::{Elevation, LidarScan};
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{Message, PointCloud2, RadarReturn, RadarScan};
@@ -42,12 +43,13 @@ pub(super) fn with_derived(fields: &[String]) -> Vec<String> {
     fields.iter().cloned().chain(rates).collect()
 }
 
-/// Every field of a radar's scan under its own name, and those range rates that derive from them and are wanted: in
-/// space where the radar measures elevation, else in its plane.
+/// Every field of a radar's scan under its own name, as `doppler` the field `rate`, too, and those range rates that
+/// derive from them and are wanted: in space where the radar measures elevation, else in its plane.
 pub(super) fn radar_columns(
     messages: &Messages,
     message: &MessageRef,
     elevation: Elevation,
+    rate: Option<&str>,
     is_wanted: impl Fn(&str) -> bool,
 ) -> Result<Columns, DataError> {
     if RadarScan::DEFINITION.is(&messages.topic(message).type_name) {
@@ -58,10 +60,13 @@ pub(super) fn radar_columns(
     let names: Vec<String> = table.names().map(str::to_owned).collect();
     let values = names.iter().filter_map(|name| table.column(name)).collect();
     let mut columns = Columns { names, values, rows: table.len() };
+    let rate = rate.filter(|rate| *rate != Doppler::RAW);
+    if let Some(told) = rate.and_then(|rate| columns.get(rate)).map(<[f32]>::to_vec) {
+        columns.add(Doppler::RAW, told);
+    }
     for (name, velocity) in derived(&columns.names).into_iter().filter(|(name, _)| is_wanted(name)) {
         if let Some(derived) = columns.along_rays(velocity, elevation) {
-            columns.names.push(name.to_owned());
-            columns.values.push(derived);
+            columns.add(name, derived);
         }
     }
     Ok(columns)
@@ -104,6 +109,11 @@ pub(super) fn point_clock(messages: &Messages, message: &MessageRef, t_ns: i64) 
 }
 
 impl Columns {
+    fn add(&mut self, name: &str, values: Vec<f32>) {
+        self.names.push(name.to_owned());
+        self.values.push(values);
+    }
+
     fn get(&self, name: &str) -> Option<&[f32]> {
         let place = self.names.iter().position(|known| known == name)?;
         self.values.get(place).map(Vec::as_slice)

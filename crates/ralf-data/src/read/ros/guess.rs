@@ -2,6 +2,7 @@
 
 use super::cloud::{self, Columns};
 use super::messages::Messages;
+use super::range_rate;
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey, vehicle};
 use crate::error::DataError;
@@ -22,16 +23,19 @@ pub struct Guess {
     pub remarks: Vec<String>,
 }
 
-/// Fields that only radars have.
-const RADAR_FIELDS: [&str; 12] = [
+/// Fields that only radars have, in whatever capitals.
+const RADAR_FIELDS: [&str; 15] = [
     "doppler",
     "doppler_compensated",
     "doppler_velocity",
     "radial_speed",
     "radial_velocity",
+    "radar_relative_radial_velocity",
     "range_rate",
     "rcs",
     "snr",
+    "v_doppler",
+    "v_doppler_mps",
     "v_r",
     "velocity",
     "vx_comp",
@@ -105,6 +109,10 @@ impl Guess {
         // What can't be read is told by whoever reads all of it.
         let frame = of_topic.find_map(|message| frame(messages, message)).unwrap_or_default();
         let entry = cloud_entry(messages, topic, place, &frame);
+        if let Some(field) = &entry.doppler {
+            let taken = "is taken for the range rate, m/s and positive when receding";
+            self.remarks.push(format!("{}: the field `{field}` {taken}", topic.name));
+        }
         if entry.kind == TopicKind::Lidar && vehicle::is_world(&frame) {
             return Some((entry, frame));
         }
@@ -203,10 +211,11 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize, frame: &str) ->
         ..TopicConfig::new(&topic.name, kind)
     };
     let scans = of_topic
-        .filter_map(|message| cloud::radar_columns(messages, message, Elevation::None, |_| true).ok());
+        .filter_map(|message| cloud::radar_columns(messages, message, Elevation::None, None, |_| true).ok());
+    let is_called_radar = is_called(topic, "radar") || named_in(&names, &RADARS) != GENERIC;
     let is_lidar = |fields: &[String]| {
-        let has = |name: &&str| fields.iter().any(|known| known == name);
-        !is_called(topic, "radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)
+        let has = |name: &&str| fields.iter().any(|known| known.eq_ignore_ascii_case(name));
+        !is_called_radar && has(&"x") && !RADAR_FIELDS.iter().any(has)
     };
     let Some(Scans { fields, heights }) = Scans::of(scans, is_lidar) else {
         return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
@@ -221,7 +230,8 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize, frame: &str) ->
         [] | [_] if has_third => None,
         heights => Some(heights.iter().any(|height| *height != heights[0])),
     };
-    TopicConfig { elevation, ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
+    let doppler = range_rate::find(&fields).map(str::to_owned);
+    TopicConfig { elevation, doppler, ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
 }
 
 /// What the first scans of a radar with detections tell.

@@ -13,6 +13,7 @@ mod motion;
 mod mounting;
 mod pixels;
 mod point_clock;
+mod range_rate;
 mod sensors;
 mod source;
 mod survey;

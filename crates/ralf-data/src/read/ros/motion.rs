@@ -9,6 +9,9 @@ use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, tran
 
 /// A vehicle whose poses lie this far from the first has moved, m: those of a parked one wander less.
 const MOVED: f64 = 2.0;
+/// A frame that slips sideways by more than so much of its way, and m/s, isn't where the vehicle's axes meet its rear
+/// wheels: there nothing but a skid does.
+const SIDEWAYS: [f64; 2] = [0.02, 0.1];
 /// Messages without a pose are passed over where those before and after them that have one lie at most this far apart,
 /// ns: a straight line tells too little of a longer way.
 const BRIDGED_NS: i64 = 1_000_000_000;
@@ -133,7 +136,47 @@ impl Part<'_> {
             ));
             told.clear();
         }
+        self.leave_slipping_to_poses(poses, told, warnings)
+    }
+
+    /// Velocities are told along the vehicle's x alone. Where the vehicle's origin goes sideways in turns, its poses
+    /// tell it whole; without poses it is said what is missing.
+    fn leave_slipping_to_poses(
+        &self,
+        poses: &[PoseSample],
+        mut told: Vec<OdometrySample>,
+        warnings: &mut Vec<String>,
+    ) -> Vec<OdometrySample> {
+        let [share, least] = SIDEWAYS;
+        let slips = |velocity: &Vector| velocity.y.abs() > (share * velocity.x.abs()).max(least);
+        let velocities: Vec<Vector> = self.samples().map(|sample| self.velocity(sample)).collect();
+        let most = velocities.iter().map(|velocity| velocity.y.abs()).fold(0.0, f64::max);
+        if told.is_empty()
+            || 20 * velocities.iter().filter(|velocity| slips(velocity)).count() <= velocities.len()
+        {
+            return told;
+        }
+        let name = &self.topic.topic;
+        let found = format!("{name}: the vehicle's frame goes sideways, by up to {most:.1} m/s");
+        if poses.len() > 1 {
+            warnings.push(format!(
+                "{found}: its velocities are not used, and the poses tell how fast the vehicle is"
+            ));
+            told.clear();
+        } else {
+            warnings.push(format!(
+                "{found}, which is not used: a frame above the rear axle (`vehicle_frame`) does not"
+            ));
+        }
         told
+    }
+
+    /// The velocity of the vehicle's origin, in the vehicle's axes, whatever frame was measured in.
+    fn velocity(&self, sample: &MotionSample) -> Vector {
+        let Transform { rotation, translation } = &self.vehicle_from_child;
+        let turn = rotation * Vector::from(sample.twist.angular);
+        // A rigid body: the child's origin, at the lever's end, moves as the vehicle's does, and by `turn x lever`.
+        rotation * Vector::from(sample.twist.linear) - turn.cross(&translation.vector)
     }
 
     /// The twists that are numbers; a warning counts the others.
@@ -150,13 +193,9 @@ impl Part<'_> {
 
     /// Along the vehicle's x and about its z: at the vehicle's origin, whatever frame was measured in.
     fn twists(&self) -> Vec<OdometrySample> {
-        let (rotation, lever) =
-            (self.vehicle_from_child.rotation, self.vehicle_from_child.translation.vector);
         let twist = |sample: &MotionSample| {
-            let turn = rotation * Vector::from(sample.twist.angular);
-            // A rigid body: the child's origin, at the lever's end, moves as the vehicle's does, and by `turn x lever`.
-            let velocity = rotation * Vector::from(sample.twist.linear) - turn.cross(&lever);
-            OdometrySample { t_ns: sample.t_ns, velocity: velocity.x, yaw_rate: turn.z }
+            let turn = self.vehicle_from_child.rotation * Vector::from(sample.twist.angular);
+            OdometrySample { t_ns: sample.t_ns, velocity: self.velocity(sample).x, yaw_rate: turn.z }
         };
         self.samples().map(twist).collect()
     }

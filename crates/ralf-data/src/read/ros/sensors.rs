@@ -6,6 +6,7 @@ use super::cloud::{Columns, point_clock, radar_columns};
 use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
 use super::point_clock::{PointClock, Said};
+use super::range_rate;
 use super::survey::{Survey, info_topic};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::track::{MessagesPerSensor, Track};
@@ -28,6 +29,8 @@ pub(super) struct Sensors {
     pub(super) clocks: Vec<LidarClock>,
     /// The frame of each radar.
     pub(super) radar_frames: Vec<String>,
+    /// The field of each radar that the settings name for its range rate.
+    pub(super) rates: Vec<Option<String>>,
     /// What is left out, and what is done with the points' times, a sentence each.
     pub(super) warnings: Vec<String>,
     /// Names of sensors none of whose messages can be read.
@@ -120,7 +123,10 @@ impl Sensors {
                 return Ok(());
             }
         };
-        self.rig.radars.push(asked.radar(fields, vehicle_from_radar)?);
+        let radar = asked.radar(fields, vehicle_from_radar)?;
+        self.warnings.extend(range_rate::unused(asked.name, &radar.fields));
+        self.rig.radars.push(radar);
+        self.rates.push(asked.topic.doppler.clone());
         self.radar_frames.push(asked.frame().to_owned());
         asked.track.keep(&mut self.times.radars, &mut self.radars);
         Ok(())
@@ -229,8 +235,9 @@ impl Asked<'_> {
         let mut of_empty = None;
         let is_wanted = |_: &str| self.topic.derive_doppler != Some(false);
         let found = self.first(|_, message| {
+            let rate = self.topic.doppler.as_deref();
             let Columns { names, rows, .. } =
-                radar_columns(self.messages, message, Elevation::None, is_wanted)?;
+                radar_columns(self.messages, message, Elevation::None, rate, is_wanted)?;
             if rows > 0 {
                 return Ok(Some((*message, names)));
             }
@@ -287,7 +294,8 @@ impl Asked<'_> {
             None => {}
         }
         if let Some(message) = message {
-            check_fields(&radar).map_err(|why| messages.refused(&message, "fields", &why))?;
+            let checked = check_fields(&radar).and_then(|()| range_rate::check(name, topic, &radar.fields));
+            checked.map_err(|why| messages.refused(&message, "fields", &why))?;
         }
         radar.check().map_err(|expected| {
             let found = format!("the model `{}`", topic.model.as_deref().unwrap_or_default());

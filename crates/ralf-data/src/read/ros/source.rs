@@ -12,6 +12,7 @@ use super::track::MessagesPerSensor;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::measurement;
+use ralf::scene::Doppler;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, Radar, RadarScan, Sequence, Source, SourceError,
 };
@@ -44,6 +45,8 @@ pub(super) struct Drive {
     radars: MessagesPerSensor,
     lidars: MessagesPerSensor,
     clocks: Vec<LidarClock>,
+    /// The field of each radar that the settings name for its range rate.
+    rates: Vec<Option<String>>,
     cameras: MessagesPerSensor,
     warnings: Vec<String>,
     lost: Vec<String>,
@@ -64,20 +67,27 @@ impl Drive {
         let name = sequence_name(messages.path());
         let title = format!("{} topics", messages.container().topics().len());
         let sensors = Sensors::of(&messages, topics, &survey, &vehicle)?;
-        let Sensors { rig, times, radars, lidars, cameras, clocks, radar_frames, absent, .. } = sensors;
+        let Sensors { rig, times, radars, lidars, cameras, clocks, radar_frames, rates, absent, .. } =
+            sensors;
         warnings.extend(sensors.warnings);
         let losses = messages.container().losses().iter().filter(|loss| loss.hides_messages);
         let lost = losses.map(ToString::to_string).chain(sensors.lost).collect();
         let sequence = Sequence { name, title, rig, times, motion, depth_output: DepthOutput::default() };
         let origin = RosOrigin { messages, radar_frames };
-        Ok(Self { sequence, origin, radars, lidars, clocks, cameras, warnings, lost, absent })
+        Ok(Self { sequence, origin, radars, lidars, clocks, rates, cameras, warnings, lost, absent })
     }
 
-    /// A scan of a radar as its message has it, with the range rates that derive from it and the model names.
-    fn measured(&self, (radar, scan): (usize, usize), model: &Radar) -> Result<RadarScan, SourceError> {
+    /// A scan of a radar as its message has it, with the range rates that derive from it and the model names, and that
+    /// of this field.
+    fn measured(
+        &self,
+        (radar, scan): (usize, usize),
+        model: &Radar,
+        rate: Option<&str>,
+    ) -> Result<RadarScan, SourceError> {
         let message = measurement("radar", &self.radars, radar, scan)?;
         let is_wanted = |name: &str| model.column(name).is_some();
-        let columns = radar_columns(&self.origin.messages, message, model.elevation, is_wanted)?;
+        let columns = radar_columns(&self.origin.messages, message, model.elevation, rate, is_wanted)?;
         let t_ns = self.sequence.times.radars[radar][scan];
         if columns.rows == 0 {
             // Some drivers leave the fields out where nothing was detected.
@@ -91,6 +101,11 @@ impl Drive {
         let scan = RadarScan::new(model, t_ns, columns.values);
         Ok(scan
             .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)
+    }
+
+    /// The field that settings name for a radar's range rate, if it is called otherwise.
+    fn named_rate(&self, radar: usize) -> Option<&str> {
+        self.rates.get(radar)?.as_deref().filter(|rate| *rate != Doppler::RAW)
     }
 
     /// A LiDAR's scan as its message has it.
@@ -115,7 +130,7 @@ impl Source for Drive {
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let model = self.sequence.rig.radars.get(radar);
         let none = DataError::NoMeasurement { kind: "radar", sensor: radar, index: scan };
-        self.measured((radar, scan), model.ok_or(none)?)
+        self.measured((radar, scan), model.ok_or(none)?, self.named_rate(radar))
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
@@ -161,18 +176,21 @@ impl SequenceReader for Drive {
         Ok(if is_rolling { Some(self.recorded(lidar, scan)?) } else { None })
     }
 
-    /// Whether range rates are derived is a setting, and no other content.
+    /// Whether range rates are derived, or taken from a field, is a setting, and no other content.
     fn delivered(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         if !self.alters_values(radar) {
             return self.radar_scan(radar, scan);
         }
         let model = &self.sequence.rig.radars[radar];
-        let whole = Radar { fields: with_derived(&model.fields), ..model.clone() };
-        self.measured((radar, scan), &whole)
+        let mut fields = model.fields.clone();
+        fields.retain(|name| self.named_rate(radar).is_none() || name != Doppler::RAW);
+        let whole = Radar { fields: with_derived(&fields), ..model.clone() };
+        self.measured((radar, scan), &whole, None)
     }
 
     fn alters_values(&self, radar: usize) -> bool {
-        self.sequence.rig.radars.get(radar).is_some_and(|radar| derives_doppler(&radar.fields))
+        let derives = |radar: &Radar| derives_doppler(&radar.fields);
+        self.named_rate(radar).is_some() || self.sequence.rig.radars.get(radar).is_some_and(derives)
     }
 
     fn origin(&self) -> Option<&dyn Any> {

@@ -4,7 +4,7 @@ use super::camera;
 use super::frames::Frames;
 use super::messages::Messages;
 use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
-use super::track::Track;
+use super::track::{Track, has_unstamped};
 use super::unread::Unread;
 use crate::error::DataError;
 use ralf_ros::container::MessageRef;
@@ -27,6 +27,8 @@ pub(super) struct Survey {
     pub(super) infos: BTreeMap<usize, (MessageRef, CameraInfo)>,
     /// Messages that can't be read. Those of sensors stand in their tracks, too.
     pub(super) unread: Unread,
+    /// What is said of messages that were sent before their driver knew the time, a sentence each.
+    unstamped: Vec<String>,
 }
 
 /// What a topic tells of the vehicle's motion.
@@ -159,15 +161,16 @@ impl Survey {
         unread.into_iter().chain(self.frames.left_out(messages)).collect()
     }
 
-    /// What is said of the messages that can't be read, but those of sensors: they are named one by one; and of the
-    /// transforms that are not used.
+    /// What is said of messages without a time; of those that can't be read, but those of sensors, which are named one
+    /// by one; and of the transforms that are not used.
     pub(super) fn losses(&self, messages: &Messages, topics: &Topics) -> Vec<String> {
         let is_sensor = |name: &str| {
             topics.iter().any(|(sensor, topic)| topic.topic == name && self.sensors.contains_key(sensor))
         };
         let topics = messages.container().topics();
         let unread = self.unread.sentences(messages, |topic| !is_sensor(&topics[topic].name));
-        unread.into_iter().chain(self.frames.left_out(messages)).collect()
+        let unstamped = self.unstamped.iter().cloned();
+        unstamped.chain(unread).chain(self.frames.left_out(messages)).collect()
     }
 
     /// Takes what a message says.
@@ -244,16 +247,32 @@ impl Survey {
 
     fn sort(&mut self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         for (name, track) in &mut self.sensors {
+            let (count, all) = (track.stamp_unstamped(), track.readable.len());
+            let done = "they take the recorder's, less the usual delay";
+            self.unstamped.extend(unstamped(&topics[name], count, all, done));
             track.readable.sort_by_key(|(t_ns, _)| *t_ns);
             check_stamps(messages, name, topics, track.readable.iter().map(|(t_ns, _)| *t_ns))?;
         }
         for (name, track) in &mut self.motion {
+            if has_unstamped(track.samples.iter().map(|sample| sample.t_ns)) {
+                let all = track.samples.len();
+                track.samples.retain(|sample| sample.t_ns != 0);
+                let count = all - track.samples.len();
+                self.unstamped.extend(unstamped(&topics[name], count, all, "they are not used"));
+            }
             track.samples.sort_by_key(|sample| sample.t_ns);
             check_stamps(messages, name, topics, track.samples.iter().map(|sample| sample.t_ns))?;
             track.samples.dedup_by_key(|sample| sample.t_ns);
         }
         Ok(())
     }
+}
+
+/// What is said of so many of a topic's messages that have no time, if there are any.
+fn unstamped(topic: &TopicConfig, count: usize, all: usize, done: &str) -> Option<String> {
+    (count > 0).then(|| {
+        format!("{}: {count} of {all} messages have no time (header.stamp is 0): {done}", topic.topic)
+    })
 }
 
 /// Refuses a topic whose driver doesn't tell the time.

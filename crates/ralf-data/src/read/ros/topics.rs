@@ -21,6 +21,9 @@ pub struct TopicConfig {
     /// Radar: whether it measures elevation; as the model says, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation: Option<bool>,
+    /// Radar: the field that tells the raw range rate, m/s and positive when receding; `doppler`, if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doppler: Option<String>,
     /// Radar: whether range rates are derived from a velocity where no field tells them; `true`, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub derive_doppler: Option<bool>,
@@ -91,6 +94,7 @@ impl TopicConfig {
             kind,
             model: None,
             elevation: None,
+            doppler: None,
             derive_doppler: None,
             info: None,
             rectified: None,
@@ -107,6 +111,7 @@ impl TopicConfig {
         let given = [
             ("model", self.model.is_some(), [Radar, Lidar].as_slice()),
             ("elevation", self.elevation.is_some(), &[Radar]),
+            ("doppler", self.doppler.is_some(), &[Radar]),
             ("derive_doppler", self.derive_doppler.is_some(), &[Radar]),
             ("info", self.info.is_some(), &[Camera]),
             ("rectified", self.rectified.is_some(), &[Camera]),

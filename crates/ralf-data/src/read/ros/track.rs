@@ -5,6 +5,15 @@ use ralf_ros::container::MessageRef;
 /// The messages of each sensor, in the order of its timeline.
 pub(super) type MessagesPerSensor = Vec<Vec<MessageRef>>;
 
+/// A clock that has other times than 0, but none this near to it, ns, never was at 0.
+const NEAR_NS: u64 = 1_000_000_000;
+
+/// Whether some of these times are 0 for want of a clock.
+pub(super) fn has_unstamped(times: impl Iterator<Item = i64>) -> bool {
+    let (zeros, others): (Vec<i64>, Vec<i64>) = times.partition(|t_ns| *t_ns == 0);
+    !zeros.is_empty() && !others.is_empty() && others.iter().all(|t_ns| t_ns.unsigned_abs() > NEAR_NS)
+}
+
 /// The messages of a sensor.
 #[derive(Default)]
 pub(super) struct Track {
@@ -37,6 +46,23 @@ impl Track {
         all.extend(unreadable.map(|message| (message.log_ns.saturating_sub(delay), *message)));
         all.sort_by_key(|(t_ns, _)| *t_ns);
         all
+    }
+
+    /// Gives messages that were sent before their driver knew the time (a stamp of 0 among others) the recorder's, less
+    /// the usual delay of the others. Returns how many.
+    pub(super) fn stamp_unstamped(&mut self) -> usize {
+        if !has_unstamped(self.readable.iter().map(|(t_ns, _)| *t_ns)) {
+            return 0;
+        }
+        let (mut unstamped, stamped) = self.readable.drain(..).partition(|(t_ns, _)| *t_ns == 0);
+        self.readable = stamped;
+        let delay = self.usual_delay();
+        for (t_ns, message) in &mut unstamped {
+            *t_ns = message.log_ns.saturating_sub(delay);
+        }
+        let count = unstamped.len();
+        self.readable.append(&mut unstamped);
+        count
     }
 
     /// Adds the timeline to those of other sensors.

@@ -3,7 +3,7 @@
 //! View-of-Delft gives no vehicle frame. Here it is the LiDAR's axes (x forward, y left, z up) with the origin on the
 //! ground below the rear axle of the recording car, a Toyota Prius.
 
-use super::raw::{Calib, read_odom_from_camera};
+use super::raw::Calib;
 use crate::error::DataError;
 use crate::read::rotation::{mounting, rotation};
 use nalgebra::{Matrix3, Translation3};
@@ -60,9 +60,13 @@ pub(super) fn camera_from_sensor(file: &Path, calib: &Calib) -> Result<Transform
     Ok(rectify * mounting(file, "Tr_velo_to_cam", camera_from_sensor)?)
 }
 
-/// The pose of a frame's vehicle in odom.
-pub(super) fn odom_from_vehicle(file: &Path, mounting: &Mounting) -> Result<Transform, DataError> {
-    let [a, b, c, x, d, e, f, y, g, h, i, z, last @ ..] = read_odom_from_camera(file)?;
+/// The pose of a frame's vehicle in odom, out of the matrix of its pose file.
+pub(super) fn odom_from_vehicle(
+    file: &Path,
+    odom_from_camera: &[f64; 16],
+    mounting: &Mounting,
+) -> Result<Transform, DataError> {
+    let [a, b, c, x, d, e, f, y, g, h, i, z, last @ ..] = *odom_from_camera;
     if last != [0.0, 0.0, 0.0, 1.0] {
         return Err(DataError::content(file, "odomToCamera", "a last row of 0 0 0 1", format!("{last:?}")));
     }

@@ -7,11 +7,21 @@ use ralf_files::Kind;
 use serde::Deserialize;
 use std::path::Path;
 
+/// Frames are taken at 10 Hz.
+pub(super) const FRAME_NS: i64 = 100_000_000;
+
 /// A frame: its number, and that number as the files have it (`00549`).
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Frame {
     pub(super) number: u32,
     pub(super) stem: String,
+}
+
+impl Frame {
+    /// When it was taken, ns.
+    pub(super) fn time_ns(&self) -> i64 {
+        i64::from(self.number) * FRAME_NS
+    }
 }
 
 /// The frames of a folder of `.bin` files, ascending; at least one. Hidden files are none: macOS leaves `._00549.bin`
@@ -83,17 +93,24 @@ struct PoseDocument {
     odom_from_camera: Option<[f64; 16]>,
 }
 
-/// `odomToCamera` (which maps camera to odom), 4 x 4 row-major, from a file of several JSON documents.
-pub(super) fn read_odom_from_camera(file: &Path) -> Result<[f64; 16], DataError> {
-    let bad = |place, found| {
-        DataError::content(file, place, "JSON documents, one with 16 numbers `odomToCamera`", found)
-    };
+/// `odomToCamera` (which maps camera to odom), 4 x 4 row-major, from a file of several JSON documents. `None` where the
+/// file isn't there, is empty, or ends before it: the published data set has such frames.
+pub(super) fn read_odom_from_camera(file: &Path) -> Result<Option<[f64; 16]>, DataError> {
+    if !files::exists(file)? {
+        return Ok(None);
+    }
     let text = files::read_text(file, Kind::Settings)?;
     for document in serde_json::Deserializer::from_str(&text).into_iter::<PoseDocument>() {
-        let document = document.map_err(|error| bad(format!("line {}", error.line()), error.to_string()))?;
-        if let Some(pose) = document.odom_from_camera {
-            return Ok(pose);
+        match document {
+            Ok(PoseDocument { odom_from_camera: None }) => {}
+            Ok(PoseDocument { odom_from_camera }) => return Ok(odom_from_camera),
+            Err(error) if error.is_eof() => return Ok(None),
+            Err(error) => {
+                let place = format!("line {}", error.line());
+                let expected = "JSON documents, one with 16 numbers `odomToCamera`";
+                return Err(DataError::content(file, place, expected, error.to_string()));
+            }
         }
     }
-    Err(bad("documents".to_owned(), "none with that key".to_owned()))
+    Ok(None)
 }

@@ -69,7 +69,7 @@ impl DataSet {
     }
 
     fn open(&self) -> Result<Box<dyn SequenceReader>, DataError> {
-        Ok(open(self.0.path())?.sequences.remove(0))
+        Ok(open(self.0.path(), &[])?.sequences.remove(0))
     }
 
     /// The error of opening, which must hold all of the words.
@@ -152,12 +152,16 @@ fn frames_that_disagree_are_warned_of() {
     set.write("radar/training/calib/00006.txt", calib(&RADAR.replace("2.5", "2.502")).as_bytes());
     set.write("radar/training/calib/00009.txt", calib(&RADAR.replace("2.5", "2.5005")).as_bytes());
     set.write("radar/training/pose/00006.json", pose(40.0).as_bytes());
+    let turned = pose(3.0).replace("0, 0, 1, 4.12, -1, 0, 0, 0,", "1, 0, 0, 4.12, 0, 0, 1, 0,");
+    assert_ne!(turned, pose(3.0));
+    set.write("radar/training/pose/00009.json", turned.as_bytes());
     let warnings = set.open().unwrap().warnings().join("\n");
     assert!(
         warnings.contains("calibration of 1 frames (00006 first) is not that of frame 00005"),
         "{warnings}"
     );
-    assert!(warnings.contains("the pose jumps by 40.0 m between the frames 5 and 6"), "{warnings}");
+    assert!(warnings.contains("jumps by 40.0 m and 0 degrees between the frames 5 and 6"), "{warnings}");
+    assert!(warnings.contains("and 90 degrees between the frames 6 and 9"), "{warnings}");
 }
 
 #[test]
@@ -190,7 +194,6 @@ fn damaged_calibrations_name_the_place() {
 #[test]
 fn damaged_poses_name_the_place() {
     let cases = [
-        ("{\"mapToCamera\": []}".to_owned(), "documents: expected JSON documents"),
         (pose(0.0).replace("UTM", "\"").replace("1.49", ""), "line 2"),
         (pose(0.0).replace("0, 0, 0, 1]", "0, 0, 1, 1]"), "a last row of 0 0 0 1"),
         (pose(0.0).replace("[0, 0, 1,", "[0, 0, 2,"), "odomToCamera: expected a rotation"),
@@ -202,10 +205,97 @@ fn damaged_poses_name_the_place() {
         set.refused(&["pose/00006.json", words]);
     }
     let set = DataSet::new();
-    fs::remove_file(set.path("radar/training/pose/00009.json")).unwrap();
-    set.refused(&["pose/00009.json"]);
+    for stem in ["00005", "00006", "00009"] {
+        set.write(&format!("radar/training/pose/{stem}.json"), b"{}");
+    }
+    set.refused(&["training/pose: poses: expected one per frame, found none"]);
     fs::remove_dir_all(set.path("radar/training/pose")).unwrap();
     set.refused(&["training/pose", "motion is unknown"]);
+}
+
+/// As the published data set has them: the first frames of two drives.
+#[test]
+fn frames_without_a_pose_lie_between_the_others() {
+    let at = |frame: i64| frame * 100_000_000;
+    let cut = pose(1.0);
+    let without = ["", "{\"mapToCamera\": [1]}", &cut[..60]];
+    for (stem, text) in
+        ["00005", "00006", "00009"].into_iter().flat_map(|stem| without.map(|text| (stem, text)))
+    {
+        let set = DataSet::new();
+        set.write(&format!("radar/training/pose/{stem}.json"), text.as_bytes());
+        let training = set.open().unwrap();
+        let told = format!("1 of 3 frames have no pose ({stem} first)");
+        assert!(training.warnings()[0].starts_with(&told), "{:?}", training.warnings());
+        // The vehicle drives on as it does between the others: 1 m a frame, or .75 or .5 m.
+        let driven = training.sequence().motion.between(at(5), at(9)).translation.x;
+        let expected = match stem {
+            "00005" => 4.0 * 2.0 / 3.0,
+            "00006" => 3.0,
+            _ => 4.0,
+        };
+        assert!((driven - expected).abs() < 1e-9, "{stem}: {driven}");
+        assert!(training.inputs().iter().all(|file| file.is_file()));
+    }
+    let set = DataSet::new();
+    fs::remove_file(set.path("radar/training/pose/00006.json")).unwrap();
+    assert!(set.open().unwrap().inputs().iter().all(|file| file.is_file()));
+}
+
+#[test]
+fn every_drive_is_a_sequence() {
+    let set = DataSet::new();
+    for (from, stem) in [("00005", "00543"), ("00006", "00544"), ("00009", "04048")] {
+        for folder in
+            ["radar/training/velodyne", "radar/training/calib", "lidar/training/calib", "radar/training/pose"]
+        {
+            let extension = if folder.ends_with("calib") {
+                "txt"
+            } else if folder.ends_with("pose") {
+                "json"
+            } else {
+                "bin"
+            };
+            let [from, to] = [from, stem].map(|stem| set.path(&format!("{folder}/{stem}.{extension}")));
+            fs::copy(from, to).unwrap();
+        }
+    }
+    let names = |wanted: &[&str]| {
+        let wanted: Vec<String> = wanted.iter().map(|name| (*name).to_owned()).collect();
+        let recording = open(set.0.path(), &wanted).unwrap();
+        let lost: Vec<String> = recording.incomplete.iter().map(|lost| lost.name.clone()).collect();
+        let read = |reader: &dyn SequenceReader| {
+            (reader.sequence().name.clone(), reader.sequence().times.radars[0].len())
+        };
+        (recording.sequences.iter().map(|reader| read(reader.as_ref())).collect::<Vec<_>>(), lost)
+    };
+    let [first, second, other] =
+        [("delft_1", 4), ("delft_2", 1), ("training", 1)].map(|(name, n)| (name.to_owned(), n));
+    assert_eq!(names(&[]).0, [first.clone(), second, other.clone()]);
+    // What is wrong with one drive costs the others nothing.
+    fs::remove_file(set.path("radar/training/calib/00544.txt")).unwrap();
+    assert_eq!(names(&[]), (vec![first.clone(), other], vec!["delft_2".to_owned()]));
+    assert_eq!(names(&["delft_1"]), (vec![first], vec![]));
+    assert!(open(set.0.path(), &["delft_2".to_owned()]).is_err());
+}
+
+/// The radar's folders of images and poses are links, which not every system copies.
+#[test]
+fn images_and_poses_are_found_beside_the_lidar() {
+    let set = DataSet::new();
+    for folder in ["image_2", "pose"] {
+        fs::rename(
+            set.path(&format!("radar/training/{folder}")),
+            set.path(&format!("lidar/training/{folder}")),
+        )
+        .unwrap();
+    }
+    set.write("radar/training/pose", b"../../lidar/training/pose");
+    let training = set.open().unwrap();
+    assert_eq!(
+        (training.sequence().motion.poses().len(), training.sequence().times.cameras[0].len()),
+        (3, 1)
+    );
 }
 
 #[test]
@@ -219,10 +309,10 @@ fn damaged_measurements_and_names_are_refused() {
     set.write("radar/training/velodyne/first.bin", b"");
     set.refused(&["first.bin: file name: expected a frame's number"]);
     let empty = tempfile::tempdir().unwrap();
-    assert!(open(empty.path()).is_err() && !recognises(empty.path()));
+    assert!(open(empty.path(), &[]).is_err() && !recognises(empty.path()));
     fs::create_dir_all(empty.path().join("radar/training/velodyne")).unwrap();
     assert!(
-        open(empty.path())
+        open(empty.path(), &[])
             .map(drop)
             .unwrap_err()
             .to_string()

@@ -83,6 +83,39 @@ fn what_is_written_is_read_back() {
     }
 }
 
+/// As `ros2 bag record --compression-mode message` writes them.
+#[test]
+fn messages_that_are_compressed_one_by_one_are_read() {
+    let place = Place::new();
+    let [_, plain, _] = own_files(3);
+    let original = place.open(&plain).unwrap();
+    let written = |stored: &dyn Fn(Vec<u8>) -> Vec<u8>| {
+        let mut to = MessageWriter::mcap(Cursor::new(Vec::new()), Compression::None).unwrap();
+        let topic = to.raw_topic(&original.topics()[0]).unwrap();
+        for message in original.messages().iter().filter(|message| message.topic() == 0) {
+            to.write_raw(&topic, message.log_ns, &stored(original.read(message).unwrap())).unwrap();
+        }
+        to.finish().unwrap().into_inner()
+    };
+    let zipped = |bytes: Vec<u8>| zstd::bulk::compress(&bytes, 1).unwrap();
+    let place = Place::new();
+    let container = place.open(&written(&zipped)).unwrap();
+    for (k, message) in (0..).zip(container.messages()) {
+        let bytes = container.read(message).unwrap();
+        let encoding = container.topics()[0].known_encoding().unwrap();
+        assert_eq!(RadarScan::from_bytes(encoding, &bytes).unwrap().returns, scan(k).returns);
+    }
+    assert_eq!(container.messages().len(), 3);
+    let cut = |bytes: Vec<u8>| {
+        let mut zipped = zipped(bytes);
+        zipped.truncate(zipped.len() - 4);
+        zipped
+    };
+    let container = place.open(&written(&cut)).unwrap();
+    let error = container.read(&container.messages()[0]).unwrap_err().to_string();
+    assert!(error.contains("message of /radar at 5 ns: expected a message of at most"), "{error}");
+}
+
 #[test]
 fn the_same_messages_give_the_same_bytes() {
     assert_eq!(own_files(50), own_files(50));

@@ -1,7 +1,7 @@
 //! What is read of a good recording.
 
 use super::recording::{
-    FRAMES, POINT_TIMES, POSTS, SEQUENCE, STEP, T0, frame_time, start_from_vehicle, write_sequence,
+    FRAMES, POINT_TIMES, POSTS, SEQUENCE, T0, frame_time, start_from_vehicle, write_sequence,
 };
 use crate::read::aimotive::{open, recognises};
 use crate::read::{MotionSource, Recording, SequenceReader};
@@ -219,12 +219,30 @@ fn egomotion2_is_preferred_and_may_know_fewer_frames() {
 #[test]
 fn without_boxes_the_lidar_tells_the_times() {
     let (folder, _) = drive();
-    fs::remove_file(folder.path().join(format!("dynamic/box/3d_body/frame_{:07}.json", FRAMES[1]))).unwrap();
-    let drive = only(folder.path());
-    assert!(drive.warnings()[0].contains("1 of 4 frames have no boxes"), "{:?}", drive.warnings());
-    let first = T0 + POINT_TIMES[0];
-    assert_eq!(drive.sequence().times.radars[0], [first, first + STEP, first + 2 * STEP, first + 3 * STEP]);
-    assert_eq!(drive.lidar_scan(0, 0).unwrap().times.unwrap()[0], 0.0);
+    let remove = |part: &str, extension: &str, indices: &[usize]| {
+        for index in indices {
+            let name = format!("dynamic/{part}/frame_{:07}.{extension}", FRAMES[*index]);
+            fs::remove_file(folder.path().join(name)).unwrap();
+        }
+    };
+    let [boxes, points] = [("box/3d_body", "json"), ("raw-revolutions", "laz")];
+    let times = |warning: &str| {
+        let drive = only(folder.path());
+        assert!(drive.warnings()[0].contains(warning), "{:?}", drive.warnings());
+        drive.sequence().times.radars[0].clone()
+    };
+    let true_times = [0, 1, 2, 3].map(frame_time);
+    remove(boxes.0, boxes.1, &[1]);
+    // The first of these points is measured 67 ms before the frame.
+    assert_eq!(times("1 of 4 frames have no boxes"), true_times);
+    remove(points.0, points.1, &[1]);
+    let told = "are taken to be 67.0 ms after the LiDAR's first point";
+    assert_eq!(times(told), true_times, "by the steps between");
+    remove(boxes.0, boxes.1, &[0, 2, 3]);
+    assert_eq!(times("taken to be 67.6 ms after"), true_times.map(|t_ns| t_ns + 600_000));
+    remove(points.0, points.1, &[0, 2]);
+    let error = open(folder.path(), &[]).map(drop).unwrap_err().to_string();
+    assert!(error.contains("expected boxes or LiDAR files of two frames or more"), "{error}");
 }
 
 #[test]

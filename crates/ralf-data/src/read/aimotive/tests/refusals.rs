@@ -80,9 +80,9 @@ fn missing_and_strange_files_are_named() {
     refused(
         &|path| {
             fs::remove_dir_all(path.join("dynamic/box")).unwrap();
-            fs::remove_file(path.join("dynamic/raw-revolutions/frame_0033645.laz")).unwrap();
+            fs::remove_dir_all(path.join("dynamic/raw-revolutions")).unwrap();
         },
-        &["frame 33645", "boxes of every frame, or a LiDAR file of every frame", "neither"],
+        &["frame 33643", "boxes or LiDAR files of two frames or more", "none"],
     );
     let whole = tempfile::tempdir().unwrap();
     for environment in ["rain", "urban"] {

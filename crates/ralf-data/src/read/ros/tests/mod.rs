@@ -1,6 +1,7 @@
 //! On tiny recordings made by the tests themselves.
 
 mod damage;
+mod drivers;
 mod reading;
 mod refusals;
 mod sparse;

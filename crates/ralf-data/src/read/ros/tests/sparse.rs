@@ -4,7 +4,7 @@ use super::*;
 use ralf_ros::message::Message;
 
 /// A recording of a LiDAR, a radar and a tree of frames, and what else is filled in.
-fn recording(fill: impl FnOnce(&Drive, &mut MessageWriter<File>)) -> (TempDir, PathBuf) {
+pub(super) fn recording(fill: impl FnOnce(&Drive, &mut MessageWriter<File>)) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("drive.mcap");
     let mut to = MessageWriter::mcap(File::create(&path).unwrap(), Compression::None).unwrap();
@@ -18,7 +18,7 @@ fn recording(fill: impl FnOnce(&Drive, &mut MessageWriter<File>)) -> (TempDir, P
 }
 
 /// Writes messages of a topic, each at its time, ms.
-fn write<M: Message>(
+pub(super) fn write<M: Message>(
     to: &mut MessageWriter<File>,
     topic: &str,
     messages: impl IntoIterator<Item = (i64, M)>,
@@ -27,12 +27,12 @@ fn write<M: Message>(
     messages.into_iter().for_each(|(ms, message)| to.write(&topic, T0 + ms * MS, &message).unwrap());
 }
 
-fn odometry(drive: &Drive, to: &mut MessageWriter<File>) {
+pub(super) fn odometry(drive: &Drive, to: &mut MessageWriter<File>) {
     write(to, "/odom", (0..8).map(|k| (100 * k, drive.odometry(100 * k))));
 }
 
 /// A radar's scan with detections at these heights.
-fn scan(drive: &Drive, ms: i64, heights: &[f32]) -> (i64, PointCloud2) {
+pub(super) fn scan(drive: &Drive, ms: i64, heights: &[f32]) -> (i64, PointCloud2) {
     let detections: Vec<[f32; 5]> = heights.iter().map(|z| [8.0, 1.0, *z, 1.0, 0.0]).collect();
     (ms, drive.cloud(ms, &detections, "vx"))
 }
@@ -43,13 +43,13 @@ fn nothing(drive: &Drive, ms: i64) -> (i64, PointCloud2) {
 }
 
 /// A LiDAR's scan, two metres from point to point, with the time of each, s.
-fn revolution(drive: &Drive, ms: i64, times: &[f32]) -> (i64, PointCloud2) {
+pub(super) fn revolution(drive: &Drive, ms: i64, times: &[f32]) -> (i64, PointCloud2) {
     let points: Vec<[f32; 5]> =
         times.iter().enumerate().map(|(k, t)| [10.0 + 2.0 * k as f32, 0.0, 0.0, *t, 0.0]).collect();
     (ms, PointCloud2 { header: drive.header(ms, "lidar"), ..drive.cloud(ms, &points, "time") })
 }
 
-const SPARSE: &str = "
+pub(super) const SPARSE: &str = "
 [topics]
 tf_static = { topic = '/tf_static', kind = 'tf_static' }
 front = { topic = '/front', kind = 'radar', model = 'generic' }
