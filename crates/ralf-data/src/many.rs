@@ -101,14 +101,14 @@ impl Job {
     }
 
     /// Opens the recording, as the settings correct it, without the sequences that it [leaves
-    /// out](Recording::left_out).
+    /// out](Recording::left_out) and, where none is named, those that weren't [copied](Recording::copied).
     ///
     /// # Errors
     /// What can't be read, and sequences that aren't there.
     pub fn open(&self) -> Result<Recording, DataError> {
         let (format, topics) = (self.format.as_deref(), &self.settings.topics);
         let recording = open_selected(&self.recording, format, topics, &self.sequences)?;
-        let recording = self.settings.correct(recording)?;
+        let recording = self.settings.correct(recording.copied())?;
         with_stored(recording, self.depth.as_deref(), self.segmentation.as_deref())
     }
 

@@ -6,16 +6,17 @@ use crate::labelling::{ToldJob, from_json, threads, to_json};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
-use ralf::sensors::{LidarScan, MemorySource, Sequence, TimedImage};
+use ralf::sensors::{LidarScan, MemorySource, TimedImage};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_from_parts};
 use ralf_data::many::model_of;
 use ralf_data::read::rig_from_json;
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
-use ralf_data::run::{CameraRecord, CheckRecord, InMemory, UnreadableScan, check_all};
-use ralf_data::{Recording, SequenceReader, write_sequence};
+use ralf_data::run::{CameraRecord, CheckRecord, InMemory, SequenceRecord, UnreadableScan, check_all};
+use ralf_data::{Recording, write_sequence};
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Where the vehicle is: metres, and a quaternion in the order x, y, z, w.
 #[derive(Deserialize)]
@@ -54,8 +55,8 @@ type Images<'py> = Vec<(i64, Bound<'py, PyAny>, Option<Vec<Bound<'py, PyAny>>>)>
 /// A sequence in memory: sensors (JSON, with the keys of `sequence.toml`) with all their measurements, in their order.
 #[pyclass(frozen, module = "ralf._ralf")]
 pub(crate) struct MemorySequence {
-    /// Of the one sequence.
-    recording: Recording,
+    /// Of the one sequence; whoever labels or writes it takes it.
+    recording: Mutex<Option<Recording>>,
 }
 
 /// What there is to know beside a table, with the keys of `run.json`.
@@ -76,14 +77,18 @@ struct Without<'a> {
 }
 
 impl<'a> Without<'a> {
-    fn of(name: &'a str, InMemory { unreadable, cameras, .. }: &'a InMemory) -> Self {
+    fn of(record: &'a SequenceRecord) -> Self {
+        let SequenceRecord { name, unreadable, cameras, .. } = record;
         Self { name, unreadable, cameras }
     }
 }
 
 impl MemorySequence {
-    fn sequence(&self) -> &dyn SequenceReader {
-        self.recording.sequences[0].as_ref()
+    fn take(&self) -> PyResult<Recording> {
+        let taken = self.recording.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.ok_or_else(|| {
+            other("expected a sequence that was neither labelled nor written, found one that was")
+        })
     }
 }
 
@@ -113,11 +118,12 @@ impl MemorySequence {
             let images = images.into_iter().map(timed_image).collect::<PyResult<_>>()?;
             source = source.with_camera(camera, images).map_err(other)?;
         }
-        Ok(Self { recording: Recording::new(Path::new("memory"), "memory", vec![Box::new(source)]) })
+        let recording = Recording::new(Path::new("memory"), "memory", vec![Box::new(source)]);
+        Ok(Self { recording: Mutex::new(Some(recording)) })
     }
 
-    /// Labels all scans, with the settings, evidence and model of a job whose recording and output are not looked at.
-    /// Returns their table, and what there is to know beside it; JSON.
+    /// Labels all scans, as a job's settings correct them, with its evidence and model; its recording and output are
+    /// not looked at. Returns their table, and what there is to know beside it; JSON.
     #[pyo3(signature = (job, jobs=None, progress=None))]
     fn label(
         &self,
@@ -126,16 +132,23 @@ impl MemorySequence {
         jobs: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Table, String)> {
-        let (job, jobs) = (job.resolve()?, threads(jobs));
-        let (labelled, check, warnings) = watched(py, progress.as_ref(), |watch| {
-            let check = if job.check { check_all(&self.recording, jobs.get()) } else { Vec::new() };
+        let (job, jobs, recording) = (job.resolve()?, threads(jobs), self.take()?);
+        let (labelled, check, mut warnings) = watched(py, progress.as_ref(), |watch| {
+            let recording = job.settings.correct(recording)?;
+            let check = if job.check { check_all(&recording, jobs.get()) } else { Vec::new() };
             let model = model_of(job.settings.method.method, job.model.as_deref())?;
-            let run = job.run(&self.recording, model.as_ref(), jobs);
+            let run = job.run(&recording, model.as_ref(), jobs);
             Ok((run.in_memory(watch)?, check, run.warnings()))
         })?;
-        let name = &self.sequence().sequence().name;
+        let doubtful = labelled.iter().flat_map(|InMemory { record, .. }| {
+            record
+                .doubtful_radars()
+                .into_iter()
+                .map(|(radar, words)| format!("{} {radar}: {words}", record.name))
+        });
+        warnings.extend(doubtful);
         let told = to_json(&Told {
-            sequences: labelled.iter().map(|one| Without::of(name, one)).collect(),
+            sequences: labelled.iter().map(|one| Without::of(&one.record)).collect(),
             check,
             warnings,
         })?;
@@ -145,13 +158,10 @@ impl MemorySequence {
 
     /// Writes the sequence in the project's own layout, for every command.
     fn write(&self, py: Python<'_>, dataset: PathBuf) -> PyResult<()> {
-        py.detach(|| write_sequence(self.sequence(), &dataset, &|_| ())).map_err(data)
-    }
-
-    /// How many scans the radars have, all together.
-    fn __len__(&self) -> usize {
-        let Sequence { times, .. } = self.sequence().sequence();
-        times.radars.iter().map(Vec::len).sum()
+        let recording = self.take()?;
+        let mut sequences = recording.sequences.iter();
+        py.detach(|| sequences.try_for_each(|one| write_sequence(one.as_ref(), &dataset, &|_| ())))
+            .map_err(data)
     }
 }
 

@@ -42,7 +42,8 @@ pub(crate) fn plot<'py>(
 fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyResult<(Vec<u8>, Vec<String>)> {
     let open = || {
         let run = LabelledRun::open(out)?;
-        let recording = open_selected(recording, None, &run.settings().topics, &[sequence])?;
+        let format = Some(run.record().format.as_str());
+        let recording = open_selected(recording, format, &run.settings().topics, &[sequence])?;
         let recording = run.settings().correct(recording)?;
         run.refuse_changes(&recording)?;
         Ok::<_, DataError>((run, recording))

@@ -73,6 +73,7 @@ impl Recording {
             reader.warnings().iter().map(|warning| format!("{name}: {warning}")).collect::<Vec<_>>()
         };
         let left_out = self.recording.left_out().into_iter().map(|sequence| format!("left out: {sequence}"));
+        let left_out = left_out.chain(self.recording.told_not_copied());
         let of_sequences = self.recording.sequences.iter().flat_map(|reader| of_sequence(reader.as_ref()));
         left_out.chain(of_sequences).collect()
     }

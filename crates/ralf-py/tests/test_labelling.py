@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -216,3 +217,15 @@ def test_the_wheel_carries_the_command():
     wrong = subprocess.run([command, "labell"], capture_output=True, text=True, check=False)
     assert wrong.returncode == 2
     assert "label" in wrong.stderr
+
+
+def test_a_sequence_that_is_gone_is_told_of_whichever_way_the_recording_is_given(drive, tmp_path):
+    twice = tmp_path / "twice"
+    shutil.copytree(drive, twice)
+    (first,) = (twice / "sequences").iterdir()
+    shutil.copytree(first, twice / "sequences/other")
+    ralf.label(twice, tmp_path / "out", check=False)
+    shutil.rmtree(twice / "sequences/other")
+    for recording in (twice, ralf.open(twice)):
+        with pytest.warns(UserWarning, match="other: their labels stay|none of other"):
+            ralf.label(recording, tmp_path / "out", check=False)

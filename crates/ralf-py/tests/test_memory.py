@@ -268,3 +268,47 @@ def test_it_is_quick_to_ask_often_and_memory_stays_flat():
 
     before = call(20)
     assert call(200) - before < 20_000
+
+
+def test_settings_correct_what_lies_in_memory_as_they_correct_files(tmp_path):
+    settings = {"corrections.left.add_yaw_deg": 40, "ground.model": "flat"}
+    street().write(tmp_path / "drive")
+    run = ralf.label(tmp_path / "drive", tmp_path / "out", settings=settings, check=False)
+    labels = street().label(settings, check=False)
+    assert np.array_equal(labels["w"], np.asarray(run["00"].column("w", 0)))
+    assert not np.array_equal(labels["w"], street().label({"ground.model": "flat"}, check=False)["w"])
+    with pytest.raises(ralf.RalfError, match="nosuch"):
+        street().label({"corrections.nosuch.add_yaw_deg": 40})
+    with pytest.raises(ralf.RalfError, match="nowhere.tum"):
+        street().label({"motion.trajectory": str(tmp_path / "nowhere.tum")})
+
+
+def test_points_of_another_clock_are_refused_when_they_are_added():
+    sequence = street(1)
+    for times, found in ([50.0, 0.0], "50.0"), ([0.0, np.nan], "nan"):
+        with pytest.raises(ValueError, match=f"top: times: expected seconds within 1.0 of the scan's, found {found}"):
+            sequence.add_lidar_scan("top", 500_000_000, np.ones((2, 3)), times=times)
+
+
+def test_a_radar_without_places_is_told_of():
+    sequence = street(1)
+    sequence.add_radar_scan("left", 100_000_000, xyz=np.full((300, 3), np.nan), doppler=np.zeros(300))
+    blind = ralf.Sequence(radars=[ralf.Radar("left")], motion=ralf.Odometry([0, 10**9], [5.0, 5.0], [0.0, 0.0]))
+    blind.add_radar_scan("left", 0, xyz=np.full((300, 3), np.nan), doppler=np.zeros(300))
+    with pytest.warns(UserWarning, match="00 left: "):
+        labels = blind.label(check=False)
+    assert any("none of its 300 detections has a place" in warning for warning in labels.warnings), labels.warnings
+
+
+def test_fields_may_come_in_any_order_and_empty_scans_have_no_row():
+    def labelled(order):
+        sequence = street(1)
+        fields = {"xyz": [[5.0, 0.0, 0.0]], "doppler": [2.0]}
+        sequence.add_radar_scan("left", 100_000_000, **{name: fields[name] for name in order})
+        sequence.add_radar_scan("left", 200_000_000, xyz=[], doppler=[])
+        return sequence.label({"ground.model": "flat"}, check=False)
+
+    one, other = labelled(["xyz", "doppler"]), labelled(["doppler", "xyz"])
+    assert np.array_equal(one["w"], other["w"])
+    assert np.array_equal(one["doppler"], other["doppler"])
+    assert [(scan.number, scan.t_ns) for scan in one.scans()] == [(0, 0), (1, 100_000_000)]

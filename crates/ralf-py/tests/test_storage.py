@@ -220,3 +220,29 @@ def test_a_single_file_is_staged(tmp_path):
         (tmp_path / "store/city.mcap").write_bytes(content)
         file = storage.stage(f"file://{tmp_path}/store/city.mcap", tmp_path / "copy")
         assert (file.name, file.read_bytes()) == ("city.mcap", content)
+
+
+def test_two_urls_of_one_name_are_not_staged_into_one_place(drive, tmp_path):
+    for day in ("mon", "tue"):
+        shutil.copytree(drive, tmp_path / day / "drive")
+    place = storage.stage(f"file://{tmp_path}/mon/drive", tmp_path / "here")
+    before = tree(place)
+    with pytest.raises(
+        ValueError, match=r"expected what was staged from file://.*/tue/drive, found file://.*/mon/drive"
+    ):
+        storage.stage(f"file://{tmp_path}/tue/drive", tmp_path / "here")
+    assert tree(place) == before
+    # Told in another way it is the same place.
+    assert storage.stage(f"{tmp_path}/mon/drive/", bytes(tmp_path / "here")) == place
+
+
+def test_results_that_were_removed_since_are_told_of_in_the_store(run, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    shutil.copytree(run.out, out)
+    monkeypatch.chdir(out)
+    storage.publish(".", f"file://{tmp_path}/store")
+    assert (tmp_path / "store/run.json").exists()
+    (tmp_path / "store/sequences/gone").mkdir()
+    (tmp_path / "store/sequences/gone/plausibility.parquet").write_bytes(b"")
+    with pytest.warns(UserWarning, match=r"sequences/gone/plausibility.parquet: not in .*/out: left there"):
+        storage.publish(b".", f"file://{tmp_path}/store")

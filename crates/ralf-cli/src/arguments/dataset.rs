@@ -75,27 +75,12 @@ impl DatasetArgs {
 
     fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
         let recording = open_selected(&self.dataset, self.format.as_deref(), topics, &self.sequences)?;
-        Ok(if self.sequences.is_empty() { copied(recording) } else { recording })
+        Ok(recording.copied())
     }
 }
 
 /// So many sequences are named that are left out.
 const SHOWN: usize = 5;
-
-/// A recording without the sequences whose radars' files are all missing.
-fn copied(recording: Recording) -> Recording {
-    let is_missing = |reader: &dyn SequenceReader| {
-        reader.sequence().times.radars.iter().all(Vec::is_empty) && !reader.warnings().is_empty()
-    };
-    let (missing, sequences): (Vec<_>, Vec<_>) =
-        recording.sequences.into_iter().partition(|reader| is_missing(reader.as_ref()));
-    let (missing, sequences) = if sequences.is_empty() { (sequences, missing) } else { (missing, sequences) };
-    let mut incomplete = recording.incomplete;
-    incomplete.extend(
-        missing.iter().map(|reader| Incomplete { name: reader.sequence().name.clone(), lost: Lost::Radars }),
-    );
-    Recording { sequences, incomplete, ..recording }
-}
 
 /// A recording as it is, of which what is left out is told.
 pub(crate) fn open_and_tell(dataset: &Path) -> Result<Recording, DataError> {

@@ -1,7 +1,6 @@
 //! Times as files tell them: of measurements, and of a LiDAR's points.
 
-/// A point farther in time from its scan is of another clock or unit, s.
-pub(crate) const LONGEST: f64 = 1.0;
+pub(crate) use ralf::sensors::LONGEST_AFTER as LONGEST;
 
 /// Times lie within 146 years of 0, so that the difference of two is a time as well.
 const LATEST_US: u64 = i64::MAX as u64 / 2000;

@@ -227,6 +227,34 @@ impl Recording {
         damaged.map(|Incomplete { name, lost }| format!("{name}: {lost}")).collect()
     }
 
+    /// What is said of the sequences of which no file of a radar was copied, if there are any.
+    pub fn told_not_copied(&self) -> Option<String> {
+        let not_copied = self.incomplete.iter().filter(|one| matches!(one.lost, Lost::Radars));
+        let names: Vec<&str> = not_copied.map(|one| one.name.as_str()).collect();
+        let (first, all) = (names.first()?, self.sequences.len() + self.incomplete.len());
+        let more = if names.len() > 1 { format!(" and {} more", names.len() - 1) } else { String::new() };
+        Some(format!("{} of {all} sequences left out, for {}: {first}{more}", names.len(), Lost::Radars))
+    }
+
+    /// The same without the sequences whose radars' files are all missing, unless sequences were asked for: large
+    /// data sets are published part by part, with tables of all.
+    pub fn copied(self) -> Self {
+        let is_missing = |reader: &dyn SequenceReader| {
+            reader.sequence().times.radars.iter().all(Vec::is_empty) && !reader.warnings().is_empty()
+        };
+        if self.is_selected || self.sequences.iter().all(|reader| is_missing(reader.as_ref())) {
+            return self;
+        }
+        let (missing, sequences): (Vec<_>, Vec<_>) =
+            self.sequences.into_iter().partition(|reader| is_missing(reader.as_ref()));
+        let lost = |reader: Box<dyn SequenceReader>| Incomplete {
+            name: reader.sequence().name.clone(),
+            lost: Lost::Radars,
+        };
+        let incomplete = self.incomplete.into_iter().chain(missing.into_iter().map(lost)).collect();
+        Self { sequences, incomplete, ..self }
+    }
+
     /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.
     pub fn select(mut self, names: &[String]) -> Result<Self, DataError> {
         let holds = |name: &String| self.sequences.iter().any(|sequence| sequence.sequence().name == *name);

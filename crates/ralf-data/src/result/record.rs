@@ -170,34 +170,18 @@ impl RunRecord {
 
     /// Radars that have detections and no numbers: sequence, radar, what there is to say.
     pub fn radars_without_numbers(&self) -> impl Iterator<Item = (&str, &str, String)> {
-        self.sequences.iter().flat_map(|sequence| {
-            let found = sequence.without_numbers.iter();
-            found.map(|found| (sequence.name.as_str(), found.radar.as_str(), found.words()))
-        })
+        named(&self.sequences, SequenceRecord::radars_without_numbers)
     }
 
     /// Radars whose plausible share is far from that of the others: sequence, radar, what there is to say.
     pub fn radars_unlike_sisters(&self) -> impl Iterator<Item = (&str, &str, String)> {
-        self.sequences.iter().flat_map(|sequence| {
-            let found = sequence.unlike_sisters.iter();
-            found.map(|found| (sequence.name.as_str(), found.radar.as_str(), found.words()))
-        })
+        named(&self.sequences, SequenceRecord::radars_unlike_sisters)
     }
 
     /// Radars that have numbers and hardly any plausible detection, but for those that are told as unlike the others:
     /// sequence, radar, what there is to say.
     pub fn radars_hardly_plausible(&self) -> impl Iterator<Item = (&str, &str, String)> {
-        self.sequences.iter().flat_map(|sequence| {
-            let is_told = |radar: &str| {
-                let mut told = sequence.without_numbers.iter().map(|found| &found.radar);
-                told.any(|name| name == radar)
-                    || sequence.unlike_sisters.iter().any(|found| found.radar == radar)
-            };
-            let radars = sequence.radars.iter().filter(move |radar| !is_told(&radar.name));
-            radars.filter_map(|radar| {
-                Some((sequence.name.as_str(), radar.name.as_str(), radar.counts().hardly_any()?))
-            })
-        })
+        named(&self.sequences, SequenceRecord::radars_hardly_plausible)
     }
 
     /// Scans that could not be labelled, with their sequence.
@@ -230,4 +214,14 @@ impl RunRecord {
     pub fn radars(&self) -> impl Iterator<Item = &RadarRecord> {
         self.sequences.iter().flat_map(|sequence| &sequence.radars)
     }
+}
+
+/// What is said of the radars of all sequences: sequence, radar, what there is to say.
+fn named<'a>(
+    sequences: &'a [SequenceRecord],
+    told: impl Fn(&'a SequenceRecord) -> Vec<(&'a str, String)>,
+) -> impl Iterator<Item = (&'a str, &'a str, String)> {
+    sequences.iter().flat_map(move |sequence| {
+        told(sequence).into_iter().map(|(radar, words)| (sequence.name.as_str(), radar, words))
+    })
 }

@@ -52,6 +52,33 @@ pub struct SequenceRecord {
     pub not_read: Vec<UnreadMeasurement>,
 }
 
+impl SequenceRecord {
+    /// Radars whose labels are to be doubted, each for one of the reasons below: radar, what there is to say.
+    pub fn doubtful_radars(&self) -> Vec<(&str, String)> {
+        [self.radars_without_numbers(), self.radars_unlike_sisters(), self.radars_hardly_plausible()].concat()
+    }
+
+    /// Radars that have detections and no numbers.
+    pub(super) fn radars_without_numbers(&self) -> Vec<(&str, String)> {
+        self.without_numbers.iter().map(|found| (found.radar.as_str(), found.words())).collect()
+    }
+
+    /// Radars whose plausible share is far from that of the others.
+    pub(super) fn radars_unlike_sisters(&self) -> Vec<(&str, String)> {
+        self.unlike_sisters.iter().map(|found| (found.radar.as_str(), found.words())).collect()
+    }
+
+    /// Radars that have numbers and hardly any plausible detection, but for those that are told as unlike the others.
+    pub(super) fn radars_hardly_plausible(&self) -> Vec<(&str, String)> {
+        let is_told = |radar: &str| {
+            let mut told = self.without_numbers.iter().map(|found| &found.radar);
+            told.any(|name| name == radar) || self.unlike_sisters.iter().any(|found| found.radar == radar)
+        };
+        let radars = self.radars.iter().filter(|radar| !is_told(&radar.name));
+        radars.filter_map(|radar| Some((radar.name.as_str(), radar.counts().hardly_any()?))).collect()
+    }
+}
+
 fn is_recorded(motion: &MotionSource) -> bool {
     *motion == MotionSource::Recorded
 }

@@ -1,15 +1,14 @@
 //! Putting a sequence's labelled scans together, in the order of the rig: row groups of its table are read and encoded
 //! side by side, and written in their order.
 
-use super::kept::place_of;
-use super::without::Without;
+use super::told::Told;
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans};
 use crate::result::{
-    EncodedGroup, FileRecord, GROUP_ROWS, Layout, NotLabelled, Numbers, PlausibilityWriter, RadarRecord,
-    RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, WithoutNumbers, told_within, written,
+    EncodedGroup, FileRecord, GROUP_ROWS, Layout, NotLabelled, PlausibilityWriter, RadarScanKey, RowGroup,
+    SequenceRecord, written,
 };
 use ralf_jobs::side_by_side;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,16 +24,6 @@ struct Assembly<'a> {
     layout: &'a Layout,
     file: PathBuf,
     observer: &'a dyn Observer,
-}
-
-/// What a sequence's scans tell beside their rows, or some of them that follow each other.
-#[derive(Default)]
-struct Told {
-    /// In the rig's order.
-    radars: Vec<RadarRecord>,
-    /// What these delivered.
-    numbers: Vec<Numbers>,
-    without: Without,
 }
 
 /// Writes `plausibility.parquet` of a sequence from its scans' tables, with so many threads.
@@ -63,24 +52,7 @@ pub(super) fn assemble(
     told.into_iter().for_each(|told| all.append(told));
     let table = Some(ordered.finish()?);
     observer.end();
-    let (unlike_sisters, without_numbers) = (all.unlike_sisters(), all.without_numbers(task));
-    let Told { radars, without, .. } = all;
-    let (unreadable, not_read) = without.named(&assembly.missing);
-    Ok(SequenceRecord {
-        name: sequence.name.clone(),
-        fingerprint: fingerprint.to_owned(),
-        recording: place_of(task.root),
-        table,
-        unlike_sisters,
-        without_numbers,
-        radars,
-        cameras: without.cameras(&task.rig.cameras),
-        not_labelled,
-        lost: task.reader.lost().iter().map(|lost| told_within(lost, task.root)).collect(),
-        motion: task.reader.motion_source(),
-        unreadable,
-        not_read,
-    })
+    Ok(all.record(task, table, not_labelled, fingerprint))
 }
 
 impl Assembly<'_> {
@@ -112,7 +84,7 @@ impl Assembly<'_> {
         let mut group = RowGroup::with_room(schema, rows);
         for index @ ScanIndex { radar, scan } in scans.iter().copied() {
             if self.is_missing(index) {
-                told.radars[radar].push(None)?;
+                told.add(self.task, radar, None)?;
                 self.observer.advance(1, 0);
                 continue;
             }
@@ -120,10 +92,8 @@ impl Assembly<'_> {
                 return Err(DataError::Stopped);
             }
             let (table, notes) = self.workspace.scan(radar, scan, schema)?;
-            told.without.add(notes);
             group.append(&RadarScanKey::new(&self.task.rig.radars[radar].name, scan), &table)?;
-            told.radars[radar].push(Some(&table))?;
-            told.numbers[radar].add(&self.task.rig.radars[radar], &table)?;
+            told.add(self.task, radar, Some((&table, notes)))?;
             self.observer.advance(1, table.len() as u64);
         }
         if rows == 0 {
@@ -131,38 +101,6 @@ impl Assembly<'_> {
         }
         let group = group.encode(self.layout).map_err(|error| written(&self.file, error))?;
         Ok((Some(group), told))
-    }
-}
-
-impl Told {
-    /// Nothing as yet.
-    fn of(task: &Task) -> Self {
-        let radar = |name: &String| RadarRecord { name: name.clone(), ..RadarRecord::default() };
-        let radars = task.rig.radars.iter().map(|sensor| radar(&sensor.name)).collect();
-        let numbers = task.rig.radars.iter().map(Numbers::of).collect();
-        Self { radars, numbers, ..Self::default() }
-    }
-
-    /// Adds what the scans behind these tell.
-    fn append(&mut self, more: Self) {
-        for (radar, more) in self.radars.iter_mut().zip(more.radars) {
-            radar.append(more);
-        }
-        for (numbers, more) in self.numbers.iter_mut().zip(&more.numbers) {
-            numbers.append(more);
-        }
-        self.without.append(more.without);
-    }
-
-    /// Radars whose labels are unlike those of the others, among those that have places at all.
-    fn unlike_sisters(&self) -> Vec<UnlikeSisters> {
-        let radars = self.radars.iter().zip(&self.numbers).filter(|(_, numbers)| numbers.has_place());
-        UnlikeSisters::of(&radars.map(|(radar, _)| radar.counts()).collect::<Vec<_>>())
-    }
-
-    fn without_numbers(&self, task: &Task) -> Vec<WithoutNumbers> {
-        let radars = self.numbers.iter().zip(&task.rig.radars);
-        radars.filter_map(|(numbers, radar)| numbers.missing(radar)).collect()
     }
 }
 

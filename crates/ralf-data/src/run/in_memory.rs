@@ -1,22 +1,19 @@
 //! Labels without files: for whoever has the recording in memory and wants the labels there, too.
 
-use super::without::Without;
+use super::told::Told;
 use super::workers::Labelling;
-use super::{CameraRecord, LabelRun, Observer, Task, UnreadableScan};
+use super::{LabelRun, Observer, Task};
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans};
-use crate::result::{RadarScanKey, ScanNotes, Table};
-use std::collections::BTreeSet;
+use crate::result::{RadarScanKey, ScanNotes, SequenceRecord, Table};
 
 /// A sequence that was labelled without files.
 #[derive(Debug)]
 pub struct InMemory {
     /// The tables of its scans, radar by radar in the order of the rig.
     pub scans: Vec<(RadarScanKey, Table)>,
-    /// What they were labelled without, for it can't be read.
-    pub unreadable: Vec<UnreadableScan>,
-    /// The images that were asked, in the rig's order.
-    pub cameras: Vec<CameraRecord>,
+    /// What is told of it, as of one that was written; nothing knows it again, and it has no table.
+    pub record: SequenceRecord,
 }
 
 impl LabelRun<'_> {
@@ -43,13 +40,12 @@ impl LabelRun<'_> {
             let key = RadarScanKey::new(&task.rig.radars[radar].name, scan);
             Ok(((key, table), ScanNotes::new(&frame, task.root)))
         })?;
-        let mut without = Without::default();
-        let notes = |(scan, notes)| {
-            without.add(notes);
-            scan
-        };
-        let scans = labelled.into_iter().map(notes).collect();
-        let (unreadable, _) = without.named(&BTreeSet::new());
-        Ok(InMemory { scans, unreadable, cameras: without.cameras(&task.rig.cameras) })
+        let (mut scans, mut told) = (Vec::with_capacity(labelled.len()), Told::of(task));
+        for (index, (scan, notes)) in all_scans(task.times()).iter().zip(labelled) {
+            told.add(task, index.radar, Some((&scan.1, notes)))?;
+            scans.push(scan);
+        }
+        let record = told.record(task, None, Vec::new(), "");
+        Ok(InMemory { scans, record })
     }
 }

@@ -25,6 +25,7 @@ mod results;
 mod scan_log;
 mod sequences;
 mod stretch;
+mod told;
 mod unfinished;
 mod warnings;
 mod without;

@@ -88,9 +88,9 @@ class Picture:
     def __init__(self, png: bytes) -> None:
         self.png = png
 
-    def save(self, file: str | os.PathLike[str]) -> None:
+    def save(self, file: Path_) -> None:
         """Write it to a file, whose name ends in `.png` if it has an ending."""
-        path = Path(file)
+        path = Path(os.fsdecode(file))
         if path.suffix.lower() not in {"", ".png"}:
             raise ValueError(f"expected a name that ends in .png, found {path}")
         path.write_bytes(self.png)

@@ -22,6 +22,9 @@ from ralf.sensors import Camera, DepthOutput, Lidar, Odometry, Poses, Radar, mot
 
 Told = TypeVar("Told", Radar, Lidar, Camera)
 
+LONGEST_AFTER = 1.0
+"""A point farther in time from its scan is of another clock or unit, s."""
+
 
 class Labels:
     """The labels of a sequence in memory: the table of a run, and its scans."""
@@ -29,7 +32,7 @@ class Labels:
     def __init__(self, table: _ralf.Table, radars: Iterable[str], told: dict[str, Any]) -> None:
         self.table = table
         self.warnings: list[str] = told["warnings"]
-        """What lies outside of the known motion."""
+        """What lies outside of the known motion, and radars whose labels are to be doubted."""
         self.doubts: list[tuple[str, str, str]] = _told.doubts(told)
         """What the check says against the sequence: its name, a sensor or `motion`, and what is doubted."""
         self.labelled_without: list[tuple[str, str, int, str]] = _told.labelled_without(told)
@@ -37,7 +40,7 @@ class Labels:
         self._radars = list(radars)
 
     def scans(self, radar: str | None = None) -> Iterator[Scan]:
-        """The scans, radar by radar; of one radar, or of all. Columns are NumPy views."""
+        """The scans with detections, radar by radar; of one radar, or of all. Columns are NumPy views."""
         return scans_of(self.table, self._radars, radar)
 
     def __getitem__(self, column: str) -> NDArray[Any]:
@@ -93,10 +96,10 @@ class Sequence:
         when = time_ns(t_ns, f"{radar}: t_ns")
         columns = _radar_columns(radar, xyz, fields)
         names = list(columns)
-        if sensor.measured and names != sensor.fields:
+        if sensor.measured and sorted(names) != sorted(sensor.fields):
             raise ValueError(f"{radar}: expected the fields {sensor.fields}, found {names}")
-        sensor.fields = names
-        sensor.measured.append((when, list(columns.values())))
+        sensor.fields = sensor.fields or names
+        sensor.measured.append((when, [columns[name] for name in sensor.fields]))
 
     def add_lidar_scan(
         self,
@@ -113,6 +116,9 @@ class Sequence:
         n = len(rows)
         strengths = np.zeros(n, np.float32) if intensity is None else column(intensity, f"{lidar}: intensity", n)
         after = None if times is None else column(times, f"{lidar}: times", n)
+        if after is not None and not (np.abs(after) <= LONGEST_AFTER).all():
+            found = after[~(np.abs(after) <= LONGEST_AFTER)][0]
+            raise ValueError(f"{lidar}: times: expected seconds within {LONGEST_AFTER} of the scan's, found {found}")
         sensor.measured.append((when, rows, strengths, after))
 
     def add_image(
@@ -155,9 +161,9 @@ class Sequence:
         warn_of(_told.warnings_of(told, [self.name], labels.warnings))
         return labels
 
-    def write(self, dataset: str | os.PathLike[str]) -> None:
+    def write(self, dataset: Path_) -> None:
         """Write the sequence in the project's own layout, which every command reads."""
-        self._built().write(dataset)
+        self._built().write(os.fsdecode(dataset))
 
     def _built(self) -> _ralf.MemorySequence:
         radars, lidars, cameras = self._radars.values(), self._lidars.values(), self._cameras.values()

@@ -83,6 +83,11 @@ class Recording:
         return self._recording.warnings
 
     @property
+    def chosen(self) -> list[str] | None:
+        """The names of the sequences that it was opened for; `None` where none was named."""
+        return json.loads(self._job.told)["sequences"] or None
+
+    @property
     def settings(self) -> dict[str, Any]:
         """All settings that it was opened with, by which `ralf.label` labels it."""
         return self._job.settings

@@ -78,13 +78,13 @@ class Scan:
 
 
 def scans_of(table: _ralf.Table, radars: Iterable[str], radar: str | None = None) -> Iterator[Scan]:
-    """The scans of a table that has these radars, in its order; of one radar, or of all."""
+    """The scans of a table that has these radars, in its order; of one radar, or of all. Empty ones have no row."""
     if radar is not None:
         refuse_unknown([radar], radars, "radar")
     return (
         Scan(name, number, table, (batch, slice(first, first + rows)))
         for name, number, batch, first, rows in table.scans
-        if radar is None or name == radar
+        if rows > 0 and (radar is None or name == radar)
     )
 
 
@@ -209,7 +209,8 @@ def label(
     path, below = (recording.path, recording.settings) if isinstance(recording, Recording) else (recording, None)
     if isinstance(recording, Recording):
         format = format or recording.format  # noqa: A001
-        sequences = recording.sequences if sequences is None else sequences
+        # Of a recording that was opened whole, sequences that are gone are told.
+        sequences = recording.chosen if sequences is None else sequences
     told = job(
         path,
         out,

@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ralf import _ralf
+from ralf._jobs import Path_
 from ralf._warnings import warn_of
 
 try:
@@ -39,7 +40,7 @@ _Known = dict[str, list[str]]
 """By the place of a database: hashes of what was staged there, and of what was published from there since."""
 
 
-def stage(url: str, folder: str | os.PathLike[str]) -> Path:
+def stage(url: str, folder: Path_) -> Path:
     """Copy a recording, or results, into a folder of this machine. Returns where it lies.
 
     Files that are there with the same size and time are left alone, so that a second call copies what is new. What it
@@ -47,16 +48,18 @@ def stage(url: str, folder: str | os.PathLike[str]) -> Path:
     copy, `.NAME.staged`. Other files there that the store lacks are left as they are, which is a warning. The times of
     files are those of the store, by which RALF knows a file again.
 
-    Raises `FileNotFoundError` where the URL leads to nothing. A database of what people said is refused with a
+    Raises `FileNotFoundError` where the URL leads to nothing, and a `ValueError` where the folder holds what was staged
+    from another URL of the same last name, before anything is changed. A database of what people said is refused with a
     `ValueError`, before anything is copied, where it has a journal in the store, which is half of it at most, and where
     the store's would replace one in which something was said on this machine since it was staged or published; the
     latter is known by a hidden file, `.NAME.known`.
     """
     store, root = _opened(url)
-    place = Path(folder) / PurePosixPath(root).name
+    place = Path(os.fsdecode(folder)) / PurePosixPath(root).name
     wanted = _found(url, store, root)
-    record = Path(folder) / f".{place.name}.staged"
-    put: _Stamps = _read(record)
+    record = _staged_file(place)
+    source = store.unstrip_protocol(root)
+    put = _put_from(record, source)
     known: _Known = _read(_known_file(place))
     _refuse_to_lose(place, wanted, put, known)
     record.parent.mkdir(parents=True, exist_ok=True)
@@ -69,23 +72,24 @@ def stage(url: str, folder: str | os.PathLike[str]) -> Path:
             if fetched and inside.suffix == DATABASE:
                 known[str(inside)] = [_hash(place / inside)]
     finally:
-        _write(record, json.dumps(put))
+        _write(record, json.dumps({"url": source, "files": put}))
         if known:
             _write(_known_file(place), json.dumps(known))
     warn_of(_others(url, place, wanted))
     return place
 
 
-def publish(out: str | os.PathLike[str], url: str) -> None:
+def publish(out: Path_, url: str) -> None:
     """Copy results to a store, the marker last.
 
     What people said is copied as SQLite knows it at that moment, a review that goes on among it, into one file without
     a journal; journals that lie beside it in the store are removed. An `out` without the record of a finished labelling
     is refused with a `RalfError`; with a `ValueError` a damaged database, and one in the place of which the store has
     another, in which somebody else may have said something: neither staged here nor published from here. All of it
-    before the store is touched. What was published is known by a hidden file beside `out`, `.NAME.known`.
+    before the store is touched. What was published is known by a hidden file beside `out`, `.NAME.known`. Files of the
+    store that `out` lacks, such as sequences that were removed since, are left there, which is a warning.
     """
-    place = Path(out)
+    place = Path(os.fsdecode(out)).absolute()
     _ralf.record(place)
     files = sorted(path.relative_to(place) for path in place.rglob("*") if path.is_file())
     results = [file for file in files if not _is_hidden(file) and not _is_journal(file)]
@@ -110,6 +114,7 @@ def publish(out: str | os.PathLike[str], url: str) -> None:
                 # Before, for what is ours stays so if this ends here.
                 _write(_known_file(place), json.dumps(known))
             store.put_file(os.fspath(copies.get(file, place / file)), target)
+        warn_of(_left_there(url, place, {f"{root}/{file.as_posix()}" for file in results}))
 
 
 def _opened(url: str) -> tuple[Any, str]:
@@ -150,7 +155,7 @@ def _refuse_to_lose(place: Path, wanted: _Files, put: _Stamps, known: _Known) ->
 def _refuse_to_replace(url: str, place: Path, hashes: dict[Path, str], known: _Known, scratch: Path) -> None:
     """Refuse to replace a database in a store in which something was said that this place doesn't know of."""
     store, root = _opened(url)
-    put: _Stamps = _read(place.with_name(f".{place.name}.staged"))
+    put = _put(_staged_file(place))
     for file, ours in hashes.items():
         inside, target = file.as_posix(), f"{root}/{file.as_posix()}"
         if not store.exists(target):
@@ -228,6 +233,37 @@ def _is_known(database: Path, hashes: list[str]) -> bool:
 def _hash(file: Path) -> str:
     with file.open("rb") as content:
         return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def _left_there(url: str, place: Path, published: set[str]) -> list[str]:
+    """What to warn of: files of the store that were not published with the others, and count where it is staged."""
+    store, root = _opened(url)
+    others = [PurePosixPath(name).relative_to(root) for name in sorted(store.find(root)) if name not in published]
+    others = [file for file in others if not _is_hidden(file) and not _is_journal(file)]
+    if not others:
+        return []
+    more = f" and {len(others) - 1} more" if len(others) > 1 else ""
+    return [f"{url}: {others[0]}{more}: not in {place}: left there, and counts for who evaluates what is there"]
+
+
+def _put_from(record: Path, source: str) -> _Stamps:
+    """What was put there from a URL; what was put there from another is refused."""
+    found = _read(record).get("url", source)
+    if found != source:
+        remedy = "stage one of them into another folder"
+        raise ValueError(f"{record}: expected what was staged from {source}, found {found}: {remedy}")
+    return _put(record)
+
+
+def _put(record: Path) -> _Stamps:
+    """What was put there. An earlier version told of files alone."""
+    told = _read(record)
+    stamps: _Stamps = told["files"] if "url" in told else told
+    return stamps
+
+
+def _staged_file(place: Path) -> Path:
+    return place.with_name(f".{place.name}.staged")
 
 
 def _known_file(place: Path) -> Path:

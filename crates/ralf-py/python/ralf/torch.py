@@ -73,7 +73,7 @@ class ScanDataset(Dataset[Sample]):
         self._scans: list[tuple[Path, str, list[int]]] = []
         self._ends: list[int] = []
         self._open: tuple[int, list[Scan]] | None = None
-        given = [runs] if isinstance(runs, Run | str | os.PathLike) else runs
+        given = [runs] if isinstance(runs, Run | str | bytes | os.PathLike) else runs
         opened = [run if isinstance(run, Run) else load(run) for run in given]
         held = [(run, sequence) for run in opened for sequence in run.record["sequences"]]
         refuse_unknown(sequences or [], (sequence["name"] for _, sequence in held), "sequence")

@@ -103,6 +103,9 @@ pub fn check_fields(radar: &Radar) -> Result<(), String> {
     Coordinates::for_radar(radar).map(drop)
 }
 
+/// A LiDAR's point farther in time from its scan is of another clock or unit, s.
+pub const LONGEST_AFTER: f64 = 1.0;
+
 /// One revolution of one LiDAR, motion-corrected to its timestamp, in the LiDAR's frame.
 ///
 /// Motion-corrected means: every point lies where it would have been measured at [`t_ns`](Self::t_ns), had the world

@@ -1,8 +1,8 @@
 //! A sequence whose measurements lie in memory: for whoever has decoded them already.
 
 use crate::sensors::{
-    Camera, CameraImage, DepthImage, DepthOutput, KNOWN_NS, Lidar, LidarScan, Radar, RadarScan, Rig,
-    Sequence, Source, SourceError, Timelines, check_mounting,
+    Camera, CameraImage, DepthImage, DepthOutput, KNOWN_NS, LONGEST_AFTER, Lidar, LidarScan, Radar,
+    RadarScan, Rig, Sequence, Source, SourceError, Timelines, check_mounting,
 };
 use crate::space::{EgoMotion, Transform};
 use thiserror::Error;
@@ -141,22 +141,12 @@ impl MemorySource {
     ///
     /// # Errors
     /// A name that another sensor has, values or a mounting that no LiDAR has, lists of different lengths in a scan,
-    /// times that go back.
+    /// points measured more than a second before or after it, times that go back.
     pub fn with_lidar(mut self, lidar: Lidar, scans: Vec<LidarScan>) -> Result<Self, MemoryError> {
         mounted(&lidar.name, &lidar.vehicle_from_lidar)?;
         lidar.check().map_err(|reason| refused(&lidar.name, "values", &reason))?;
         for (n, scan) in scans.iter().enumerate() {
-            let points = scan.points.len();
-            let times = scan.times.as_ref().map_or(points, Vec::len);
-            let classes = scan.classes.as_ref().map_or(points, Vec::len);
-            for (what, found) in
-                [("intensities", scan.intensity.len()), ("times", times), ("classes", classes)]
-            {
-                if found != points {
-                    let reason = format!("expected {points} {what}, one per point, found {found}");
-                    return Err(refused(&lidar.name, &format!("scan {n}"), &reason));
-                }
-            }
+            check_points(scan).map_err(|reason| refused(&lidar.name, &format!("scan {n}"), &reason))?;
         }
         let times = self.times(&lidar.name, scans.iter().map(|scan| scan.t_ns))?;
         self.sequence.times.lidars.push(times);
@@ -242,6 +232,24 @@ fn check_depth(camera: &Camera, depth: &[DepthImage]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Refuses a scan whose lists are of different lengths, or points of another clock or unit.
+fn check_points(scan: &LidarScan) -> Result<(), String> {
+    let points = scan.points.len();
+    let times = scan.times.as_ref().map_or(points, Vec::len);
+    let classes = scan.classes.as_ref().map_or(points, Vec::len);
+    let lists = [("intensities", scan.intensity.len()), ("times", times), ("classes", classes)];
+    if let Some((what, found)) = lists.into_iter().find(|(_, found)| *found != points) {
+        return Err(format!("expected {points} {what}, one per point, found {found}"));
+    }
+    let is_off = |seconds: &f32| f64::from(*seconds).abs() > LONGEST_AFTER || seconds.is_nan();
+    match scan.times.iter().flatten().copied().enumerate().find(|(_, seconds)| is_off(seconds)) {
+        Some((n, found)) => Err(format!(
+            "expected times within {LONGEST_AFTER} s of the scan's, found {found} s of point {n}"
+        )),
+        None => Ok(()),
+    }
 }
 
 /// From a sentence that says what was expected and found.

@@ -18,7 +18,7 @@ pub use bounds::{FARTHEST, MOST_PIXELS, check_mounting};
 pub use camera::Camera;
 pub use image::{CameraImage, ClassImage, DepthImage, DepthOutput, ImageSizeError};
 pub use intrinsics::Intrinsics;
-pub use measurement::{LidarScan, RadarScan, check_fields, is_return};
+pub use measurement::{LONGEST_AFTER, LidarScan, RadarScan, check_fields, is_return};
 pub use memory::{MemoryError, MemorySource, TimedImage};
 pub use rig::{COORDINATE_FIELDS, Elevation, Lidar, Radar, Reliability, Rig};
 pub use source::{KNOWN_NS, Sequence, Source, SourceError, Timelines};
