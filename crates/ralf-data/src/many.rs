@@ -79,6 +79,8 @@ pub struct Plan {
     pub earlier: Earlier,
     /// What [`Recording::left_out`] says.
     pub left_out: Vec<String>,
+    /// What [`Recording::told_not_copied`] says.
+    pub not_copied: Option<String>,
     /// Cameras of whose images the stores hold some, and not all that labelling asks for.
     pub lacking: Vec<Lacking>,
 }
@@ -240,9 +242,10 @@ pub fn plan(
     let keep = || write_json(&file, &job);
     let planned = job.with_run(jobs, |run| {
         let (left_out, lacking) = (run.recording.left_out(), job.lacking(run)?);
+        let not_copied = run.recording.told_not_copied();
         let Planned { stretches, earlier } = run.plan_and(keep, scans, observer)?;
         let tasks = stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect();
-        Ok(Plan { tasks, earlier, left_out, lacking })
+        Ok(Plan { tasks, earlier, left_out, not_copied, lacking })
     });
     let has_no = |file: &Path| files::exists(file).map(|exists| !exists);
     if planned.is_err() && is_recording(&job) && has_no(&file)? && has_no(&job.out.join(RECORD))? {

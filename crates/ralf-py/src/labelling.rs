@@ -131,6 +131,7 @@ pub(crate) fn plan(
     let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
     let mut warnings = plan.earlier.told(Earlier::PLANNED);
     warnings.extend(plan.left_out.iter().map(|sequence| format!("left out: {sequence}")));
+    warnings.extend(plan.not_copied);
     warnings.extend(plan.lacking.iter().map(Lacking::words));
     Ok((tasks, warnings))
 }

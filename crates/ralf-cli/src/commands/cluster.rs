@@ -137,6 +137,8 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
                 let what = plan.earlier.told(Earlier::PLANNED);
                 what.iter().for_each(|line| say(&format!("{}: {line}", out.display())));
                 say_sequences_left_out(recording, &plan.left_out);
+                let not_copied = plan.not_copied.iter();
+                not_copied.for_each(|line| say(&format!("warning: {}: {line}", recording.display())));
                 say_lacking(&plan.lacking);
                 planned.push((out.as_path(), plan.tasks));
             }

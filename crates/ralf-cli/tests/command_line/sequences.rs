@@ -254,14 +254,15 @@ fn scenes_of_another_part_of_the_data_set_are_left_out_in_one_line() {
     assert!(!ran.stdout.contains("scene-0002"));
     // So it is where many machines label.
     let shared = place.path().join("shared");
-    let shared = shared.to_str().unwrap();
-    ralf(["cluster", "plan", "--quiet", &recording, "-o", shared]).exits(0);
-    ralf(["cluster", "assemble", "--quiet", shared]).exits(0);
-    let labelled = |out: &str| {
-        let folders = fs::read_dir(Path::new(out).join("sequences")).unwrap();
+    let planned = ralf(["cluster", "plan", "--quiet", &recording, "-o", shared.to_str().unwrap()]).exits(0);
+    planned.says([&format!("7 of 8 sequences left out, {why}: scene-0002 and 6 more")]);
+    ralf(["cluster", "assemble", "--quiet", shared.to_str().unwrap()]).exits(0);
+    let labelled = |out: &Path| {
+        let folders = fs::read_dir(out.join("sequences")).unwrap();
         folders.map(|folder| folder.unwrap().file_name()).collect::<Vec<_>>()
     };
-    assert_eq!((labelled(shared).len(), labelled(shared)), (1, labelled(&out)));
+    let [one, many] = [labelled(Path::new(&out)), labelled(&shared.join("recording"))];
+    assert_eq!((one.len(), &one), (1, &many));
     // Whoever asks for one is told of each of its sensors.
     let warned = "scene-0002: 5 of 5 files of RADAR_FRONT are not there and were left out";
     ralf(["inspect", &recording, "--sequence", "scene-0002"]).exits(0).says([warned]);

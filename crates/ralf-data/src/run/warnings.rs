@@ -23,6 +23,6 @@ impl LabelRun<'_> {
             let sentences = reader.warnings().iter().cloned().chain(held_motion(sequence));
             sentences.map(|sentence| format!("{}: {sentence}", sequence.name))
         });
-        left_out.chain(of_sequence).collect()
+        left_out.chain(self.recording.told_not_copied()).chain(of_sequence).collect()
     }
 }
