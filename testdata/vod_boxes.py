@@ -107,8 +107,19 @@ class Grid:
         )
 
 
+def label_file(out, index):
+    """The labels of a frame, by its place among all frames: sequences are clips (`delft_2`), in the frames' order."""
+    clips = {int(folder.name.rpartition("_")[2]): folder for folder in out.glob("sequences/delft_*")}
+    for _, folder in sorted(clips.items()):
+        count = len(list((folder / "radar").glob("*.label")))
+        if index < count:
+            return folder / f"radar/{index:06}.label"
+        index -= count
+    return out / f"sequences/training/radar/{index:06}.label"
+
+
 def labels(out, index, count):
-    file = out / f"sequences/training/radar/{index:06}.label"
+    file = label_file(out, index)
     data = file.read_bytes()
     if len(data) != 4 * count:
         sys.exit(f"{file}: expected {count} labels, found {len(data)} bytes")

@@ -156,7 +156,7 @@ fn what_all_radars_hear_behind_things_moves_none_of_them() {
 fn drives_of_one_vehicle_tell_together() {
     let known = errors(7);
     let drives = [(STRAIGHT, 8), (TURNING, 9)].map(|(drive, seed)| {
-        let mut faulty = planted(&Recording::of(drive, 120, seed));
+        let mut faulty = planted(&Recording::of(drive, 80, seed));
         plant(&mut faulty, &known);
         faulty
     });

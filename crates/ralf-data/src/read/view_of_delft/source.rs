@@ -1,4 +1,4 @@
-//! The training frames as a source: measurements typed.
+//! A clip's frames as a source: measurements typed.
 
 use super::calibration::{Mounting, camera, camera_from_sensor, vehicle_from_lidar};
 use super::motion;
@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 const RADAR_FIELDS: [&str; 7] = ["x", "y", "z", "rcs", "doppler", "doppler_compensated", "time"];
 /// Width and height of the published images, px, for a data set that is copied without them.
 const IMAGE_SIZE: [usize; 2] = [1936, 1216];
+
 /// How a clip's files are read.
 pub(super) struct Published;
 
