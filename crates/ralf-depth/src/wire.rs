@@ -10,6 +10,13 @@ const WIDEST: i64 = 4096;
 /// Attributes whose values say how large an image becomes.
 const WIDTHS: [&[u8]; 5] = [b"pads", b"strides", b"dilations", b"kernel_shape", b"output_padding"];
 
+/// The field of a tensor that says in which other file its numbers lie.
+const EXTERNAL: u64 = 13;
+/// What is said of such a network: what lies in another file is not known by its hash, and is looked for in whatever
+/// folder the program was started in.
+const ELSEWHERE: &str = "weights: expected them in the file itself, found some in another one beside it: export the \
+                         network in one file (torch.onnx.export: external_data=False)";
+
 /// Messages of onnx.proto that hold others, or what is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Message {
@@ -52,7 +59,7 @@ impl Message {
             (Node, 5) => Attribute,
             (Value, 2) | (Attribute, 14 | 15) => Type,
             (Type, 1) => Shape,
-            (Model, 8 | 14) | (Shape, 2) | (Plain, 1) | (Tensor, 13) => Plain,
+            (Model, 8 | 14) | (Shape, 2) | (Plain, 1) => Plain,
             _ => return None,
         })
     }
@@ -80,6 +87,9 @@ fn message(mut bytes: &[u8], kind: Message, depth: usize) -> Result<(), String> 
     let mut name: &[u8] = &[];
     while !bytes.is_empty() {
         let (field, rest) = next(bytes).ok_or_else(|| format!("{} is cut short or damaged", kind.words()))?;
+        if (kind, field.number) == (Message::Tensor, EXTERNAL) {
+            return Err(ELSEWHERE.to_owned());
+        }
         if let Some((content, inner)) = field.content.zip(kind.field(field.number)) {
             message(content, inner, depth + 1)?;
         }
@@ -177,6 +187,17 @@ mod tests {
         // Elsewhere such a number means `to the end`.
         let slice = node("Slice", &["image"], "depth", &[("ends", &[i64::MAX.cast_unsigned()])]);
         assert_eq!(check(&onnx(&[slice], &[], &[], &[])), Ok(()));
+    }
+
+    #[test]
+    fn weights_in_another_file_are_refused() {
+        let here = weights("w", &[1, 3, 1, 1], &[1.0; 3]);
+        // A text of a key and its value: location, net.onnx.data.
+        let entry = [&[0x0a, 8], b"location".as_slice(), &[0x12, 13], b"net.onnx.data"].concat();
+        let elsewhere = [here.clone(), vec![13 << 3 | 2, entry.len() as u8], entry].concat();
+        let network = |weights| onnx(&[conv("depth", 0)], &[weights], &[], &[]);
+        assert_eq!(check(&network(here)), Ok(()));
+        assert!(check(&network(elsewhere)).unwrap_err().contains("external_data=False"));
     }
 
     #[test]

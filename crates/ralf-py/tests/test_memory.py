@@ -279,7 +279,7 @@ def test_settings_correct_what_lies_in_memory_as_they_correct_files(tmp_path):
     assert not np.array_equal(labels["w"], street().label({"ground.model": "flat"}, check=False)["w"])
     with pytest.raises(ralf.RalfError, match="nosuch"):
         street().label({"corrections.nosuch.add_yaw_deg": 40})
-    with pytest.raises(ralf.RalfError, match="nowhere.tum"):
+    with pytest.raises(ralf.RalfError, match=r"nowhere\.tum"):
         street().label({"motion.trajectory": str(tmp_path / "nowhere.tum")})
 
 

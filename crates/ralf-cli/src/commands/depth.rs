@@ -21,12 +21,13 @@ Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has R
 tree below the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not \
 computed again, unless it is damaged, or was made of another image or of other views of it, or nothing beside it \
 tells of which. \
-Where depth lies of which nothing tells whose it is (no depth.toml), none is added.
+Where depth lies of which nothing tells whose it is (no depth.toml), none is added. \
+In the dataset itself `[depth] output` of each sequence.toml must say what the network's card says.
 
 Examples:
-  ralf depth recordings/city --depth-model midas.onnx
+  ralf depth recordings/city --depth-model midas.onnx -o depth-of-city
   ralf depth nuscenes --depth-model midas.onnx -o depth-of-nuscenes
-  ralf depth recordings/city --check            which scaling fits the LiDAR best?")]
+  ralf depth recordings/city --depth-model midas.onnx -o depth-of-city --check   which scaling fits best?")]
 pub(crate) struct DepthArgs {
     #[command(flatten)]
     dataset: DatasetArgs,

@@ -7,6 +7,7 @@ use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{LayoutSequence, Recording, SequenceReader, Settings, open, open_with, write_sequence};
 use ralf_ros::container::Container;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -272,6 +273,14 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
         let copied = messages(&labelled, |name| !is_labelled(name));
         assert_eq!(copied.len(), 1156);
         assert!(copied == messages(&file, |_| true), "{name}");
-        assert_eq!(messages(&labelled, is_labelled).len(), 654);
+        let of_labels = messages(&labelled, is_labelled);
+        assert_eq!(of_labels.len(), 654);
+        // Each stands beside the cloud that it labels, whatever the radar's own clock says.
+        let logged: BTreeSet<(&str, i64)> =
+            copied.iter().map(|(topic, _, log_ns, _)| (topic.as_str(), *log_ns)).collect();
+        let is_beside = |(topic, _, log_ns, _): &(String, String, i64, Vec<u8>)| {
+            logged.contains(&(topic.trim_end_matches("_labelled"), *log_ns))
+        };
+        assert!(of_labels.iter().all(is_beside), "{name}");
     }
 }

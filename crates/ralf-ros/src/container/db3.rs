@@ -6,11 +6,19 @@ use super::database::{self, refused};
 use super::error::ContainerError;
 use super::loss::Loss;
 use rusqlite::{Connection, Row};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// What an SQLite file begins with.
 pub(super) const MAGIC: &[u8] = b"SQLite format 3\0";
+
+/// The column of a topic that tells how its publishers offer messages.
+const OFFERED: &str = "offered_qos_profiles";
+/// Its durability where messages are also for those who come later: as rosbag2 had it until Humble, and since.
+const LATCHED: [&str; 2] = ["1", "transient_local"];
+/// What the table of definitions tells.
+const DEFINITION: [&str; 3] = ["topic_type", "encoding", "encoded_message_definition"];
 
 #[derive(Debug)]
 pub(super) struct Db3File {
@@ -23,14 +31,7 @@ impl Db3File {
     pub(super) fn open(path: &Path, losses: &mut Vec<Loss>) -> Result<(Self, Catalogue), ContainerError> {
         let connection = database::open(path)?;
         let mut catalogue = Catalogue::default();
-        let topics = "SELECT id, name, type, serialization_format FROM topics";
-        for_each_row(&connection, topics, |row| {
-            let (topic, type_name, encoding) = (row.get(1)?, row.get(2)?, row.get(3)?);
-            let channel = Channel { topic, type_name, encoding, schema: Schema::default() };
-            catalogue.channels.insert(row.get(0)?, channel);
-            Ok(())
-        })
-        .map_err(refused(path, "table `topics`"))?;
+        catalogue.channels = channels(&connection).map_err(refused(path, "table `topics`"))?;
         let messages = &mut catalogue.messages;
         let rows = "SELECT id, topic_id, timestamp FROM messages ORDER BY id";
         let read = for_each_row(&connection, rows, |row| {
@@ -63,6 +64,64 @@ impl Db3File {
         drop(connection);
         Ok(bytes)
     }
+}
+
+/// The topics, with what newer recorders tell of them: for whom messages are, and what types are made of.
+fn channels(connection: &Connection) -> rusqlite::Result<BTreeMap<u32, Channel>> {
+    let definitions = definitions(connection)?;
+    let told = has_columns(connection, "topics", &[OFFERED])?;
+    let offered = if told { OFFERED } else { "''" };
+    let mut channels = BTreeMap::new();
+    let topics = format!("SELECT id, name, type, serialization_format, {offered} FROM topics");
+    for_each_row(connection, &topics, |row| {
+        let (topic, type_name, encoding): (String, String, String) = (row.get(1)?, row.get(2)?, row.get(3)?);
+        let offered: Option<String> = row.get(4)?;
+        let latched = is_latched(&topic, &offered.unwrap_or_default());
+        let schema = definitions.get(&type_name).cloned().unwrap_or_default();
+        channels.insert(
+            row.get(0)?,
+            Channel { topic, type_name, encoding, schema: Schema { latched, ..schema } },
+        );
+        Ok(())
+    })?;
+    Ok(channels)
+}
+
+/// What types are made of, by their names; nothing of older recorders.
+fn definitions(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Schema>> {
+    let mut definitions = BTreeMap::new();
+    if !has_columns(connection, "message_definitions", &DEFINITION)? {
+        return Ok(definitions);
+    }
+    let rows = format!("SELECT {} FROM message_definitions", DEFINITION.join(", "));
+    for_each_row(connection, &rows, |row| {
+        let (encoding, text): (String, String) = (row.get(1)?, row.get(2)?);
+        let text = text.into_bytes();
+        definitions.insert(row.get(0)?, Schema { encoding, text, ..Schema::default() });
+        Ok(())
+    })?;
+    Ok(definitions)
+}
+
+/// Whether messages are also for those who come later: as the recorder was offered them, or where it doesn't tell, as
+/// every static frame is.
+fn is_latched(topic: &str, offered: &str) -> bool {
+    if !offered.contains("durability") {
+        return topic.ends_with("/tf_static");
+    }
+    let of_line =
+        |line: &str| line.trim().trim_start_matches("- ").strip_prefix("durability:").map(str::to_owned);
+    let told = offered.lines().filter_map(of_line);
+    told.into_iter().any(|value| LATCHED.contains(&value.trim()))
+}
+
+fn has_columns(connection: &Connection, table: &str, columns: &[&str]) -> rusqlite::Result<bool> {
+    let mut known: Vec<String> = Vec::new();
+    for_each_row(connection, &format!("SELECT name FROM pragma_table_info('{table}')"), |row| {
+        known.push(row.get(0)?);
+        Ok(())
+    })?;
+    Ok(columns.iter().all(|column| known.iter().any(|name| name == column)))
 }
 
 fn for_each_row(

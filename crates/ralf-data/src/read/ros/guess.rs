@@ -3,6 +3,7 @@
 use super::cloud::{self, Columns};
 use super::messages::Messages;
 use super::range_rate;
+use super::same_radar;
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey, vehicle};
 use crate::error::DataError;
@@ -94,6 +95,7 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
         guess.add_of_world(messages, entry, &frame);
     }
     guess.remarks.extend(vehicle::add(&mut guess.topics, messages));
+    guess.remarks.extend(same_radar::remarks(&guess.topics, messages));
     guess
 }
 

@@ -14,6 +14,7 @@ mod mounting;
 mod pixels;
 mod point_clock;
 mod range_rate;
+mod same_radar;
 mod sensors;
 mod source;
 mod survey;

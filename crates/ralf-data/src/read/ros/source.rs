@@ -16,7 +16,7 @@ use ralf::scene::Doppler;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, Radar, RadarScan, Sequence, Source, SourceError,
 };
-use ralf_ros::container::Container;
+use ralf_ros::container::{Container, MessageRef};
 use std::any::Any;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +24,8 @@ use std::path::{Path, PathBuf};
 pub(crate) struct RosOrigin {
     messages: Messages,
     radar_frames: Vec<String>,
+    /// When the recorder got each scan of each radar, ns.
+    radar_logs: Vec<Vec<i64>>,
 }
 
 impl RosOrigin {
@@ -35,6 +37,11 @@ impl RosOrigin {
     /// The frame of each radar, in the order of the rig.
     pub(crate) fn radar_frames(&self) -> &[String] {
         &self.radar_frames
+    }
+
+    /// When the recorder got a scan of a radar, ns.
+    pub(crate) fn radar_log(&self, radar: usize, scan: usize) -> Option<i64> {
+        self.radar_logs.get(radar)?.get(scan).copied()
     }
 }
 
@@ -73,7 +80,9 @@ impl Drive {
         let losses = messages.container().losses().iter().filter(|loss| loss.hides_messages);
         let lost = losses.map(ToString::to_string).chain(sensors.lost).collect();
         let sequence = Sequence { name, title, rig, times, motion, depth_output: DepthOutput::default() };
-        let origin = RosOrigin { messages, radar_frames };
+        let logs = |messages: &Vec<MessageRef>| messages.iter().map(|message| message.log_ns).collect();
+        let radar_logs = radars.iter().map(logs).collect();
+        let origin = RosOrigin { messages, radar_frames, radar_logs };
         Ok(Self { sequence, origin, radars, lidars, clocks, rates, cameras, warnings, lost, absent })
     }
 

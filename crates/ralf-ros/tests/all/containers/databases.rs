@@ -98,3 +98,40 @@ fn a_pipe_in_the_place_of_a_log_is_named() {
     let error = place.open(&fixture("db3/db3.db3")).unwrap_err().to_string();
     assert!(error.contains("recording-wal, found a named pipe"), "{error}");
 }
+
+/// As rosbag2 tells for whom messages are: numbers until Humble, words since; nothing before Foxy.
+#[test]
+fn who_comes_later_gets_what_is_for_those_and_types_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("drive.db3");
+    std::fs::write(&file, fixture("db3/db3.db3")).unwrap();
+    let topic = |name: &str| {
+        let container = Container::open(&file).unwrap();
+        container.topics().iter().find(|topic| topic.name == name).unwrap().schema.clone()
+    };
+    assert!(topic("/tf_static").latched && !topic("/odom").latched);
+    let on = rusqlite::Connection::open(&file).unwrap();
+    let offered = |name: &str, profiles: &str| {
+        on.execute("UPDATE topics SET offered_qos_profiles = ?1 WHERE name = ?2", [profiles, name]).unwrap();
+    };
+    for (profiles, latched) in [
+        ("- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n", true),
+        ("- history: keep_last\n  durability: transient_local\n", true),
+        ("- history: 3\n  durability: 2\n- durability: 2\n", false),
+        ("- durability: volatile\n", false),
+    ] {
+        offered("/odom", profiles);
+        offered("/tf_static", profiles);
+        assert_eq!((topic("/odom").latched, topic("/tf_static").latched), (latched, latched), "{profiles}");
+    }
+    let defined = "INSERT INTO message_definitions (topic_type, encoding, encoded_message_definition, \
+                   type_description_hash) VALUES ('nav_msgs/msg/Odometry', 'ros2msg', 'Thing a', '')";
+    on.execute("DELETE FROM message_definitions", []).unwrap();
+    on.execute(defined, []).unwrap();
+    let told = topic("/odom");
+    assert_eq!((told.encoding.as_str(), told.text.as_slice()), ("ros2msg", b"Thing a".as_slice()));
+    // What older recorders write has neither.
+    on.execute_batch("DROP TABLE message_definitions; ALTER TABLE topics DROP COLUMN offered_qos_profiles")
+        .unwrap();
+    assert!(topic("/tf_static").latched && topic("/odom").text.is_empty());
+}

@@ -101,6 +101,24 @@ fn a_radar_is_known_by_its_frame_and_by_fields_in_capitals() {
 }
 
 #[test]
+fn two_topics_of_one_radar_are_remarked() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        let scans = || [50, 100].map(|ms| cloud(drive, ms, "radar", &OF_TI));
+        write(to, "/radar/filtered", scans());
+        write(to, "/radar/raw", scans());
+        write(to, "/radar/other", [50, 101].map(|ms| cloud(drive, ms, "radar", &OF_TI)));
+    });
+    let guess = guess(&path).unwrap();
+    let told = "/radar/raw has the frame and the times of /radar/filtered: if they are one radar's, leave one of them out";
+    assert_eq!(
+        guess.remarks.iter().filter(|remark| remark.contains("the times of")).collect::<Vec<_>>(),
+        [told]
+    );
+    assert_eq!(guess.topics.values().filter(|topic| topic.kind == TopicKind::Radar).count(), 3);
+}
+
+#[test]
 fn messages_from_before_their_driver_knew_the_time_take_the_recorders() {
     let (_folder, path) = recording(|drive, to| {
         let unstamped = Drive { stamped: false, ..Drive::default() };

@@ -11,8 +11,7 @@ use std::path::Path;
 
 /// The recording behind a sequence, and which of its topics are copied.
 pub(super) struct Originals<'a> {
-    /// The frame of each radar.
-    pub(super) radar_frames: &'a [String],
+    origin: &'a RosOrigin,
     container: &'a Container,
     /// One for each topic of the recording; an earlier export's labels are not copied.
     topics: Vec<Option<RawTopic>>,
@@ -32,14 +31,25 @@ impl<'a> Originals<'a> {
         let Some(origin) = reader.origin().and_then(<dyn Any>::downcast_ref::<RosOrigin>) else {
             return Ok(None);
         };
-        let (container, radar_frames) = (origin.container(), origin.radar_frames());
+        let container = origin.container();
         let is_copied = |topic: &&Topic| !topic.name.ends_with(LABELLED);
         if !container.topics().iter().filter(is_copied).all(|topic| writer.can_copy(topic)) {
             return Ok(None);
         }
         let copy = |topic| is_copied(&topic).then(|| writer.raw_topic(topic)).transpose();
         let topics = container.topics().iter().map(copy).collect::<Result<_, _>>()?;
-        Ok(Some(Self { radar_frames, container, topics }))
+        Ok(Some(Self { origin, container, topics }))
+    }
+
+    /// The frame of each radar.
+    pub(super) fn radar_frames(&self) -> &'a [String] {
+        self.origin.radar_frames()
+    }
+
+    /// When the message that holds a radar's scan was recorded, ns: what is said of it belongs beside it, whatever
+    /// clock the radar has.
+    pub(super) fn radar_log(&self, radar: usize, scan: usize) -> Option<i64> {
+        self.origin.radar_log(radar, scan)
     }
 
     /// When each message that is copied was recorded.

@@ -145,7 +145,11 @@ impl<'a> Recorder<'a> {
         }
         let radars = self.topics.labelled.iter().chain(&self.topics.radars).next();
         let radars = radars.map_or(&[][..], |_| &sequence.times.radars);
-        events.extend(each(radars).map(|(t, radar, scan)| (t, Event::Radar { radar, scan })));
+        let log = |radar, scan| self.originals.as_ref().and_then(|found| found.radar_log(radar, scan));
+        events.extend(
+            each(radars)
+                .map(|(t, radar, scan)| (log(radar, scan).unwrap_or(t), Event::Radar { radar, scan })),
+        );
         if !self.topics.lidars.is_empty() {
             events.extend(
                 each(&sequence.times.lidars).map(|(t, lidar, scan)| (t, Event::Lidar { lidar, scan })),
@@ -193,16 +197,18 @@ impl<'a> Recorder<'a> {
         self.writer.write(&topics.tf, stamp_ns, &vehicle).map_err(&refused)
     }
 
+    /// A radar's scan, recorded at this time.
     fn radar(
         &mut self,
-        stamp_ns: i64,
+        log_ns: i64,
         radar: usize,
         scan: usize,
         labelled: Option<&mut LabelledSequence>,
     ) -> Result<(), DataError> {
-        let frames = self.originals.as_ref().map_or(&self.names.radars[..], |found| found.radar_frames);
-        let header = header(stamp_ns, &frames[radar]);
-        let sensor = &self.reader.sequence().rig.radars[radar];
+        let frames = self.originals.as_ref().map_or(&self.names.radars[..], |found| found.radar_frames());
+        let Sequence { rig, times, .. } = self.reader.sequence();
+        let header = header(times.radars[radar][scan] + self.delay_ns, &frames[radar]);
+        let sensor = &rig.radars[radar];
         let measured = match labelled {
             Some(sequence) => {
                 let found = sequence.scan(radar, scan)?;
@@ -210,14 +216,14 @@ impl<'a> Recorder<'a> {
                 let columns = cloud_columns(sequence, &found, &measured, true)?;
                 let cloud = cloud::of_columns(header.clone(), &columns);
                 let topic = &self.topics.labelled[radar];
-                self.writer.write(topic, stamp_ns, &cloud).map_err(written(self.file))?;
+                self.writer.write(topic, log_ns, &cloud).map_err(written(self.file))?;
                 found.kept_of(measured)
             }
             None => self.reader.radar_scan(radar, scan).map_err(unread(&sensor.name, scan))?.columns,
         };
         let Some(topic) = self.topics.radars.get(radar) else { return Ok(()) };
         let cloud = cloud::of_radar(header, sensor, measured)?;
-        self.writer.write(topic, stamp_ns, &cloud).map_err(written(self.file))
+        self.writer.write(topic, log_ns, &cloud).map_err(written(self.file))
     }
 
     fn lidar(&mut self, stamp_ns: i64, lidar: usize, scan: usize) -> Result<(), DataError> {
