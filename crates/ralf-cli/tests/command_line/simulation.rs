@@ -75,7 +75,7 @@ fn the_first_half_of_the_queue_has_nearly_all_that_any_half_of_the_scans_can_hav
 fn a_simulated_recording_is_compared_with_another_one() {
     let dataset = Dataset::new();
     let [made, page] = ["made", "realism.html"].map(|name| dataset.beside(name));
-    ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "10", "--no-images"]).exits(0);
+    ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "5", "--no-images"]).exits(0);
     let same = ["simulate", "--compare", &made, "--with", &made, "-o", &page];
     ralf(same).exits(0).prints(["made beside made (real)", "range, m", "mean KS 0.000"]);
     let html = fs::read_to_string(&page).unwrap();
@@ -87,7 +87,7 @@ fn a_simulated_recording_is_compared_with_another_one() {
     }
 
     let other =
-        ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--scans", "10", "--json"];
+        ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--scans", "5", "--json"];
     let figures = ralf(other).exits(0).json();
     assert_eq!(figures["simulated"], "tiny, seed 4");
     let distance = figures["realism"]["mean_ks"].as_f64().unwrap();
