@@ -86,8 +86,7 @@ fn a_simulated_recording_is_compared_with_another_one() {
         assert!(!html.contains(loaded), "the page needs a network: {loaded}");
     }
 
-    let other =
-        ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--scans", "5", "--json"];
+    let other = ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--scans", "5", "--json"];
     let figures = ralf(other).exits(0).json();
     assert_eq!(figures["simulated"], "tiny, seed 4");
     let distance = figures["realism"]["mean_ks"].as_f64().unwrap();

@@ -30,8 +30,8 @@ impl Db3File {
     /// Reads what the file holds, and says what is lost. In the messages the topic is still the number of the channel.
     pub(super) fn open(path: &Path, losses: &mut Vec<Loss>) -> Result<(Self, Catalogue), ContainerError> {
         let connection = database::open(path)?;
-        let mut catalogue = Catalogue::default();
-        catalogue.channels = channels(&connection).map_err(refused(path, "table `topics`"))?;
+        let channels = channels(&connection).map_err(refused(path, "table `topics`"))?;
+        let mut catalogue = Catalogue { channels, ..Catalogue::default() };
         let messages = &mut catalogue.messages;
         let rows = "SELECT id, topic_id, timestamp FROM messages ORDER BY id";
         let read = for_each_row(&connection, rows, |row| {
