@@ -68,14 +68,15 @@ impl Db3File {
 
 /// The topics, with what newer recorders tell of them: for whom messages are, and what types are made of.
 fn channels(connection: &Connection) -> rusqlite::Result<BTreeMap<u32, Channel>> {
-    let definitions = definitions(connection)?;
+    // Labels can do without: what is wrong with them costs no recording.
+    let definitions = definitions(connection).unwrap_or_default();
     let told = has_columns(connection, "topics", &[OFFERED])?;
     let offered = if told { OFFERED } else { "''" };
     let mut channels = BTreeMap::new();
     let topics = format!("SELECT id, name, type, serialization_format, {offered} FROM topics");
     for_each_row(connection, &topics, |row| {
         let (topic, type_name, encoding): (String, String, String) = (row.get(1)?, row.get(2)?, row.get(3)?);
-        let offered: Option<String> = row.get(4)?;
+        let offered: Option<String> = row.get(4).unwrap_or_default();
         let latched = is_latched(&topic, &offered.unwrap_or_default());
         let schema = definitions.get(&type_name).cloned().unwrap_or_default();
         channels.insert(
@@ -109,10 +110,8 @@ fn is_latched(topic: &str, offered: &str) -> bool {
     if !offered.contains("durability") {
         return topic.ends_with("/tf_static");
     }
-    let of_line =
-        |line: &str| line.trim().trim_start_matches("- ").strip_prefix("durability:").map(str::to_owned);
-    let told = offered.lines().filter_map(of_line);
-    told.into_iter().any(|value| LATCHED.contains(&value.trim()))
+    let keys = offered.lines().map(|line| line.trim().trim_start_matches("- "));
+    keys.filter_map(|key| key.strip_prefix("durability:")).any(|value| LATCHED.contains(&value.trim()))
 }
 
 fn has_columns(connection: &Connection, table: &str, columns: &[&str]) -> rusqlite::Result<bool> {

@@ -130,6 +130,9 @@ fn who_comes_later_gets_what_is_for_those_and_types_are_told() {
     on.execute(defined, []).unwrap();
     let told = topic("/odom");
     assert_eq!((told.encoding.as_str(), told.text.as_slice()), ("ros2msg", b"Thing a".as_slice()));
+    // What is wrong with a definition costs no more than that.
+    on.execute("UPDATE message_definitions SET encoded_message_definition = x'ff00'", []).unwrap();
+    assert!(topic("/odom").text.is_empty());
     // What older recorders write has neither.
     on.execute_batch("DROP TABLE message_definitions; ALTER TABLE topics DROP COLUMN offered_qos_profiles")
         .unwrap();
