@@ -117,11 +117,7 @@ impl<'a> Case<'a> {
 
     /// The motion first, then the sensors in the order of the rig.
     pub(super) fn rank(&self, subject: &str) -> usize {
-        let rig = &self.sequence.rig;
-        let radars = rig.radars.iter().map(|radar| radar.name.as_str());
-        let lidars = rig.lidars.iter().map(|lidar| lidar.name.as_str());
-        let cameras = rig.cameras.iter().map(|camera| camera.name.as_str());
-        let mut names = ["motion"].into_iter().chain(radars).chain(lidars).chain(cameras);
+        let mut names = ["motion"].into_iter().chain(self.sequence.rig.names());
         names.position(|name| name == subject).unwrap_or(usize::MAX)
     }
 

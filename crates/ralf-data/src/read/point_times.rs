@@ -1,6 +1,6 @@
 //! Times as files tell them: of measurements, and of a LiDAR's points.
 
-pub(crate) use ralf::sensors::LONGEST_AFTER as LONGEST;
+use ralf::sensors::LONGEST_AFTER;
 
 /// Times lie within 146 years of 0, so that the difference of two is a time as well.
 const LATEST_US: u64 = i64::MAX as u64 / 2000;
@@ -13,10 +13,10 @@ pub(crate) fn nanoseconds(t_us: i64) -> Option<i64> {
 /// How long after its scan a point was measured, s and negative before it. The error says what was expected.
 pub(crate) fn seconds_after(point_ns: i64, scan_ns: i64) -> Result<f32, String> {
     let seconds = point_ns.saturating_sub(scan_ns) as f64 * 1e-9;
-    if seconds.abs() <= LONGEST {
+    if seconds.abs() <= LONGEST_AFTER {
         return Ok(seconds as f32);
     }
-    Err(format!("a time within {LONGEST} s of the scan's, {scan_ns} ns"))
+    Err(format!("a time within {LONGEST_AFTER} s of the scan's, {scan_ns} ns"))
 }
 
 #[cfg(test)]

@@ -200,10 +200,8 @@ def _others(url: str, place: Path, wanted: _Files) -> list[str]:
     """What to warn of: files that the store lacks, which count like all others."""
     inside = (PurePosixPath(path.relative_to(place).as_posix()) for path in place.rglob("*") if path.is_file())
     others = sorted(file for file in inside if file not in wanted and not _is_hidden(file) and not _is_journal(file))
-    if not others:
-        return []
-    more = f" and {len(others) - 1} more" if len(others) > 1 else ""
-    return [f"{place}: {others[0]}{more}: not in {url}, and not as staged from there: left as it is"]
+    left = f"not in {url}, and not as staged from there: left as it is"
+    return [f"{place}: {_first_of(others)}: {left}"] if others else []
 
 
 def _copy(database: Path, copy: Path) -> Path:
@@ -240,10 +238,13 @@ def _left_there(url: str, place: Path, published: set[str]) -> list[str]:
     store, root = _opened(url)
     others = [PurePosixPath(name).relative_to(root) for name in sorted(store.find(root)) if name not in published]
     others = [file for file in others if not _is_hidden(file) and not _is_journal(file)]
-    if not others:
-        return []
-    more = f" and {len(others) - 1} more" if len(others) > 1 else ""
-    return [f"{url}: {others[0]}{more}: not in {place}: left there, and counts for who evaluates what is there"]
+    counts = "left there, and counts for who evaluates what is there"
+    return [f"{url}: {_first_of(others)}: not in {place}: {counts}"] if others else []
+
+
+def _first_of(files: list[PurePosixPath]) -> str:
+    """The first of some files, and how many more there are."""
+    return f"{files[0]} and {len(files) - 1} more" if len(files) > 1 else str(files[0])
 
 
 def _put_from(record: Path, source: str) -> _Stamps:

@@ -182,10 +182,7 @@ impl MemorySource {
     /// A new sensor's times, which never go back; its name is no other's.
     fn times(&self, name: &str, times: impl Iterator<Item = i64>) -> Result<Vec<i64>, MemoryError> {
         let rig = &self.sequence.rig;
-        let radars = rig.radars.iter().map(|radar| &radar.name);
-        let others = rig.lidars.iter().map(|lidar| &lidar.name);
-        let cameras = rig.cameras.iter().map(|camera| &camera.name);
-        if radars.chain(others).chain(cameras).any(|known| known == name) {
+        if rig.names().any(|known| known == name) {
             let reason = format!("expected a name that no other sensor has, found `{name}`");
             return Err(refused(name, "name", &reason));
         }

@@ -103,6 +103,15 @@ pub struct Lidar {
     pub max_range: Option<f64>,
 }
 
+impl Rig {
+    /// The names of all sensors: radars, LiDARs, cameras.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let radars = self.radars.iter().map(|radar| radar.name.as_str());
+        let lidars = self.lidars.iter().map(|lidar| lidar.name.as_str());
+        radars.chain(lidars).chain(self.cameras.iter().map(|camera| camera.name.as_str()))
+    }
+}
+
 /// Names of fields that give a detection's place, in either of two kinds.
 pub const COORDINATE_FIELDS: [&str; 6] = ["x", "y", "z", "range", "azimuth", "elevation"];
 

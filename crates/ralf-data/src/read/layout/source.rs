@@ -9,12 +9,11 @@ use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
-use crate::read::point_times::LONGEST;
 use crate::read::view_origin::refuse_other;
 use crate::tree::{self, CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS, TIMES};
 use ralf::sensors::{
-    Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
-    SourceError, Timelines,
+    Camera, CameraImage, ClassImage, DepthImage, LONGEST_AFTER, Lidar, LidarScan, Radar, RadarScan, Rig,
+    Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::{EgoMotion, OdometrySample};
 use std::path::{Path, PathBuf};
@@ -133,10 +132,7 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
 
 /// Folders of measurements that no table of `sequence.toml` names, which are not read.
 fn unnamed(folder: &Path, rig: &Rig) -> Result<Option<String>, DataError> {
-    let radars = rig.radars.iter().map(|radar| &radar.name);
-    let others = rig.lidars.iter().map(|lidar| &lidar.name);
-    let named: Vec<_> = radars.chain(others).chain(rig.cameras.iter().map(|camera| &camera.name)).collect();
-    let is_named = |name: &String| named.contains(&name);
+    let is_named = |name: &String| rig.names().any(|known| known == name);
     let mut names = files::folders(folder)?;
     names.retain(|name| name != GROUND_TRUTH && !is_named(name) && folder.join(name).join(TIMES).is_file());
     let sentence = |names: String| {
@@ -267,11 +263,11 @@ fn point_times(file: &Path, points: usize) -> Result<Vec<f32>, DataError> {
         let expected = format!("{points} float32, one per point");
         return Err(DataError::content(file, "size", expected, times.len().to_string()));
     }
-    let is_near = |time: &f32| f64::from(time.abs()) <= LONGEST;
+    let is_near = |time: &f32| f64::from(time.abs()) <= LONGEST_AFTER;
     match times.iter().position(|time| !is_near(time)) {
         Some(row) => {
             let place = format!("byte {}", row * size_of::<f32>());
-            let expected = format!("a time within {LONGEST} s of the scan's");
+            let expected = format!("a time within {LONGEST_AFTER} s of the scan's");
             Err(DataError::content(file, place, expected, times[row].to_string()))
         }
         None => Ok(times),

@@ -60,7 +60,6 @@ pub(super) fn radar_columns(
     let names: Vec<String> = table.names().map(str::to_owned).collect();
     let values = names.iter().filter_map(|name| table.column(name)).collect();
     let mut columns = Columns { names, values, rows: table.len() };
-    let rate = rate.filter(|rate| *rate != Doppler::RAW);
     if let Some(told) = rate.and_then(|rate| columns.get(rate)).map(<[f32]>::to_vec) {
         columns.add(Doppler::RAW, told);
     }

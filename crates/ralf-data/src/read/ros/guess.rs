@@ -10,7 +10,7 @@ use crate::error::DataError;
 use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
 use crate::tree::GROUND_TRUTH;
 use ralf::sensors::Elevation;
-use ralf_ros::container::{MessageRef, Topic};
+use ralf_ros::container::Topic;
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
 use std::path::Path;
@@ -24,24 +24,8 @@ pub struct Guess {
     pub remarks: Vec<String>,
 }
 
-/// Fields that only radars have, in whatever capitals.
-const RADAR_FIELDS: [&str; 15] = [
-    "doppler",
-    "doppler_compensated",
-    "doppler_velocity",
-    "radial_speed",
-    "radial_velocity",
-    "radar_relative_radial_velocity",
-    "range_rate",
-    "rcs",
-    "snr",
-    "v_doppler",
-    "v_doppler_mps",
-    "v_r",
-    "velocity",
-    "vx_comp",
-    "vr",
-];
+/// Fields that only radars have beside [range rates](range_rate::OF_RADARS), in whatever capitals.
+const RADAR_FIELDS: [&str; 5] = ["doppler", "doppler_compensated", "rcs", "snr", "vx_comp"];
 
 /// Parts of a topic's name that say what is published and not by whom.
 const PLAIN_NAMES: [&str; 14] = [
@@ -107,9 +91,10 @@ impl Guess {
         topic: &Topic,
         place: usize,
     ) -> Option<(TopicConfig, String)> {
-        let mut of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+        let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
         // What can't be read is told by whoever reads all of it.
-        let frame = of_topic.find_map(|message| frame(messages, message)).unwrap_or_default();
+        let mut headers = of_topic.filter_map(|message| messages.read_header(message).ok());
+        let frame = headers.next().map(|header| header.frame_id).unwrap_or_default();
         let entry = cloud_entry(messages, topic, place, &frame);
         if let Some(field) = &entry.doppler {
             let taken = "is taken for the range rate, m/s and positive when receding";
@@ -217,7 +202,7 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize, frame: &str) ->
     let is_called_radar = is_called(topic, "radar") || named_in(&names, &RADARS) != GENERIC;
     let is_lidar = |fields: &[String]| {
         let has = |name: &&str| fields.iter().any(|known| known.eq_ignore_ascii_case(name));
-        !is_called_radar && has(&"x") && !RADAR_FIELDS.iter().any(has)
+        !is_called_radar && has(&"x") && !RADAR_FIELDS.iter().chain(&range_rate::OF_RADARS).any(has)
     };
     let Some(Scans { fields, heights }) = Scans::of(scans, is_lidar) else {
         return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
@@ -275,12 +260,6 @@ fn is_called(topic: &Topic, part: &str) -> bool {
 /// The place of the third coordinate.
 fn third(fields: &[String]) -> Option<usize> {
     fields.iter().position(|name| ["z", "elevation"].contains(&name.as_str()))
-}
-
-/// The frame of a message; `None` where it can't be read.
-fn frame(messages: &Messages, message: &MessageRef) -> Option<String> {
-    let bytes = messages.container().read(message).ok()?;
-    messages.header(message, &bytes).ok().map(|header| header.frame_id)
 }
 
 /// The names above a topic's, from the nearest: `/a/b` and `/a` of `/a/b/c`.

@@ -60,12 +60,7 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
         if !seen.has_header {
             continue;
         }
-        match messages
-            .container()
-            .read(message)
-            .map_err(DataError::from)
-            .and_then(|bytes| messages.header(message, &bytes))
-        {
+        match messages.read_header(message) {
             Ok(header) => {
                 seen.stamps_ns.push(header.stamp_ns);
                 seen.delays_ns.push(message.log_ns.saturating_sub(header.stamp_ns));

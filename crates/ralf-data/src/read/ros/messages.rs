@@ -90,6 +90,11 @@ impl Messages {
         self.decoded(message, bytes, peek_header)
     }
 
+    /// The header of a message that wasn't read yet.
+    pub(super) fn read_header(&self, message: &MessageRef) -> Result<Header, DataError> {
+        self.header(message, &self.container.read(message)?)
+    }
+
     /// Something that is wrong with a message.
     pub(super) fn error(
         &self,

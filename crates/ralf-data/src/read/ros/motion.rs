@@ -12,6 +12,8 @@ const MOVED: f64 = 2.0;
 /// A frame that slips sideways by more than so much of its way, and m/s, isn't where the vehicle's axes meet its rear
 /// wheels: there nothing but a skid does.
 const SIDEWAYS: [f64; 2] = [0.02, 0.1];
+/// It does so in more than one of so many messages.
+const SEVERAL: usize = 20;
 /// Messages without a pose are passed over where those before and after them that have one lie at most this far apart,
 /// ns: a straight line tells too little of a longer way.
 const BRIDGED_NS: i64 = 1_000_000_000;
@@ -148,14 +150,12 @@ impl Part<'_> {
         warnings: &mut Vec<String>,
     ) -> Vec<OdometrySample> {
         let [share, least] = SIDEWAYS;
-        let slips = |velocity: &Vector| velocity.y.abs() > (share * velocity.x.abs()).max(least);
+        let slips = |velocity: &&Vector| velocity.y.abs() > (share * velocity.x.abs()).max(least);
         let velocities: Vec<Vector> = self.samples().map(|sample| self.velocity(sample)).collect();
-        let most = velocities.iter().map(|velocity| velocity.y.abs()).fold(0.0, f64::max);
-        if told.is_empty()
-            || 20 * velocities.iter().filter(|velocity| slips(velocity)).count() <= velocities.len()
-        {
+        if told.is_empty() || SEVERAL * velocities.iter().filter(slips).count() <= velocities.len() {
             return told;
         }
+        let most = velocities.iter().map(|velocity| velocity.y.abs()).fold(0.0, f64::max);
         let name = &self.topic.topic;
         let found = format!("{name}: the vehicle's frame goes sideways, by up to {most:.1} m/s");
         if poses.len() > 1 {

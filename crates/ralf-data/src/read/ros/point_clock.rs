@@ -5,8 +5,7 @@
 //! header's clock, and lie within a second of its stamp in one unit, or relative to the stamp, and then their spread
 //! tells it: no scan is shorter than a millisecond or longer than a second, and units are a thousand apart.
 
-use crate::read::point_times::LONGEST;
-use ralf::sensors::is_return;
+use ralf::sensors::{LONGEST_AFTER, is_return};
 use ralf_ros::point_cloud::PointTable;
 
 /// What drivers call the time of a point.
@@ -59,7 +58,9 @@ impl PointClock {
         let stamp = t_ns as f64 * 1e-9;
         let fits = |(seconds, is_absolute): (f64, bool)| {
             let [begin, end] = [first, last].map(|t| t * seconds - if is_absolute { stamp } else { 0.0 });
-            begin.abs() <= LONGEST && end.abs() <= LONGEST && (SHORTEST..LONGEST).contains(&(end - begin))
+            begin.abs() <= LONGEST_AFTER
+                && end.abs() <= LONGEST_AFTER
+                && (SHORTEST..LONGEST_AFTER).contains(&(end - begin))
         };
         let clock = |is_absolute| {
             let unit = UNITS.into_iter().find(|(_, seconds)| fits((*seconds, is_absolute)));
@@ -85,10 +86,14 @@ impl PointClock {
                 return Ok(0.0);
             }
             let seconds = self.after(*time, t_ns);
-            if seconds.abs() <= LONGEST {
+            if seconds.abs() <= LONGEST_AFTER {
                 return Ok(seconds as f32);
             }
-            Err((n, format!("a time within {LONGEST} s of the scan's"), format!("{time} {}", self.unit)))
+            Err((
+                n,
+                format!("a time within {LONGEST_AFTER} s of the scan's"),
+                format!("{time} {}", self.unit),
+            ))
         };
         found.iter().zip(points).enumerate().map(offset).collect()
     }

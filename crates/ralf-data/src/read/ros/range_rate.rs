@@ -3,8 +3,9 @@
 use super::topics::TopicConfig;
 use ralf::scene::Doppler;
 
-/// What drivers call a raw range rate, in whatever capitals: those that mean nothing else first.
-const RANGE_RATES: [&str; 11] = [
+/// What drivers of radars, and of nothing else, call a raw range rate, in whatever capitals: those that mean nothing
+/// else first.
+pub(super) const OF_RADARS: [&str; 10] = [
     "doppler_velocity",
     "radial_velocity",
     "radial_speed",
@@ -15,14 +16,15 @@ const RANGE_RATES: [&str; 11] = [
     "v_doppler",
     "radar_relative_radial_velocity",
     "velocity",
-    "v",
 ];
+/// What some call it in a cloud that is known for a radar's.
+const SHORT: &str = "v";
 
 /// The field of a radar that looks like a raw range rate, where none is called as such a one.
 pub(super) fn find(fields: &[String]) -> Option<&str> {
     let is_told = |name: &String| [Doppler::RAW, Doppler::COMPENSATED].contains(&name.as_str());
     let called = |name: &&str| fields.iter().find(|known| known.eq_ignore_ascii_case(name));
-    let found = RANGE_RATES.iter().find_map(called).map(String::as_str);
+    let found = OF_RADARS.iter().chain([&SHORT]).find_map(called).map(String::as_str);
     found.filter(|_| !fields.iter().any(is_told))
 }
 

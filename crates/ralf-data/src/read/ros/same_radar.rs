@@ -25,11 +25,9 @@ pub(super) fn remarks(topics: &Topics, messages: &Messages) -> Vec<String> {
 /// Frame and time (ns) of the first messages that can be read.
 fn first(messages: &Messages, topic: &str) -> Vec<(String, i64)> {
     let container = messages.container();
-    let is_own = |place: usize| container.topics().get(place).is_some_and(|known| known.name == topic);
-    let of_topic = container.messages().iter().filter(|message| is_own(message.topic()));
-    let headers = of_topic.filter_map(|message| {
-        let bytes = container.read(message).ok()?;
-        messages.header(message, &bytes).ok().map(|header| (header.frame_id, header.stamp_ns))
-    });
-    headers.filter(|(_, stamp_ns)| *stamp_ns != 0).take(FIRST).collect()
+    let is_own: Vec<bool> = container.topics().iter().map(|known| known.name == topic).collect();
+    let of_topic = container.messages().iter().filter(|message| is_own[message.topic()]);
+    let headers = of_topic.filter_map(|message| messages.read_header(message).ok());
+    let told = headers.map(|header| (header.frame_id, header.stamp_ns));
+    told.filter(|(_, stamp_ns)| *stamp_ns != 0).take(FIRST).collect()
 }

@@ -29,7 +29,7 @@ pub(super) struct Sensors {
     pub(super) clocks: Vec<LidarClock>,
     /// The frame of each radar.
     pub(super) radar_frames: Vec<String>,
-    /// The field of each radar that the settings name for its range rate.
+    /// The field of each radar that tells its range rate under another name.
     pub(super) rates: Vec<Option<String>>,
     /// What is left out, and what is done with the points' times, a sentence each.
     pub(super) warnings: Vec<String>,
@@ -126,7 +126,7 @@ impl Sensors {
         let radar = asked.radar(fields, vehicle_from_radar)?;
         self.warnings.extend(range_rate::unused(asked.name, &radar.fields));
         self.rig.radars.push(radar);
-        self.rates.push(asked.topic.doppler.clone());
+        self.rates.push(asked.topic.other_rate().map(str::to_owned));
         self.radar_frames.push(asked.frame().to_owned());
         asked.track.keep(&mut self.times.radars, &mut self.radars);
         Ok(())
@@ -235,7 +235,7 @@ impl Asked<'_> {
         let mut of_empty = None;
         let is_wanted = |_: &str| self.topic.derive_doppler != Some(false);
         let found = self.first(|_, message| {
-            let rate = self.topic.doppler.as_deref();
+            let rate = self.topic.other_rate();
             let Columns { names, rows, .. } =
                 radar_columns(self.messages, message, Elevation::None, rate, is_wanted)?;
             if rows > 0 {

@@ -52,7 +52,7 @@ pub(super) struct Drive {
     radars: MessagesPerSensor,
     lidars: MessagesPerSensor,
     clocks: Vec<LidarClock>,
-    /// The field of each radar that the settings name for its range rate.
+    /// The field of each radar that tells its range rate under another name.
     rates: Vec<Option<String>>,
     cameras: MessagesPerSensor,
     warnings: Vec<String>,
@@ -112,9 +112,9 @@ impl Drive {
             .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)
     }
 
-    /// The field that settings name for a radar's range rate, if it is called otherwise.
-    fn named_rate(&self, radar: usize) -> Option<&str> {
-        self.rates.get(radar)?.as_deref().filter(|rate| *rate != Doppler::RAW)
+    /// The field that tells a radar's range rate under another name.
+    fn other_rate(&self, radar: usize) -> Option<&str> {
+        self.rates.get(radar)?.as_deref()
     }
 
     /// A LiDAR's scan as its message has it.
@@ -139,7 +139,7 @@ impl Source for Drive {
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let model = self.sequence.rig.radars.get(radar);
         let none = DataError::NoMeasurement { kind: "radar", sensor: radar, index: scan };
-        self.measured((radar, scan), model.ok_or(none)?, self.named_rate(radar))
+        self.measured((radar, scan), model.ok_or(none)?, self.other_rate(radar))
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
@@ -192,14 +192,14 @@ impl SequenceReader for Drive {
         }
         let model = &self.sequence.rig.radars[radar];
         let mut fields = model.fields.clone();
-        fields.retain(|name| self.named_rate(radar).is_none() || name != Doppler::RAW);
+        fields.retain(|name| self.other_rate(radar).is_none() || name != Doppler::RAW);
         let whole = Radar { fields: with_derived(&fields), ..model.clone() };
         self.measured((radar, scan), &whole, None)
     }
 
     fn alters_values(&self, radar: usize) -> bool {
         let derives = |radar: &Radar| derives_doppler(&radar.fields);
-        self.named_rate(radar).is_some() || self.sequence.rig.radars.get(radar).is_some_and(derives)
+        self.other_rate(radar).is_some() || self.sequence.rig.radars.get(radar).is_some_and(derives)
     }
 
     fn origin(&self) -> Option<&dyn Any> {

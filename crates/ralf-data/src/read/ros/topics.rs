@@ -1,6 +1,7 @@
 //! Which topic of a ROS recording is which sensor: the table `topics` of the settings.
 
 use ralf::config::ConfigError;
+use ralf::scene::Doppler;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -103,6 +104,11 @@ impl TopicConfig {
             vehicle_frame: None,
             stamps: None,
         }
+    }
+
+    /// The field of a radar's range rate, where it is called otherwise than here.
+    pub(super) fn other_rate(&self) -> Option<&str> {
+        self.doppler.as_deref().filter(|field| *field != Doppler::RAW)
     }
 
     /// Keys that are given and have no meaning for this kind.

@@ -48,8 +48,7 @@ pub(super) fn read(
             first.stem
         ));
     }
-    let ends = [frames.first(), frames.last()].into_iter().flatten();
-    let lacks_end = ends.into_iter().any(|end| without.contains(&end));
+    let lacks_end = [frames.first(), frames.last()].into_iter().flatten().any(|end| without.contains(&end));
     let poses = if lacks_end { going_on(poses, STEPS * FRAME_NS, STEPS) } else { poses };
     let motion = EgoMotion::new(Vec::new(), poses)
         .ok_or_else(|| DataError::content(folder, "poses", "one per frame", "none"))?;
