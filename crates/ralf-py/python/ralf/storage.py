@@ -59,9 +59,10 @@ def stage(url: str, folder: Path_) -> Path:
     wanted = _found(url, store, root)
     record = _staged_file(place)
     source = store.unstrip_protocol(root)
-    put = _put_from(record, source)
+    put = _put(record)
     known: _Known = _read(_known_file(place))
     _refuse_to_lose(place, wanted, put, known)
+    _refuse_another(record, source)
     record.parent.mkdir(parents=True, exist_ok=True)
     try:
         for gone in [inside for inside in put if PurePosixPath(inside) not in wanted]:
@@ -247,13 +248,12 @@ def _first_of(files: list[PurePosixPath]) -> str:
     return f"{files[0]} and {len(files) - 1} more" if len(files) > 1 else str(files[0])
 
 
-def _put_from(record: Path, source: str) -> _Stamps:
-    """What was put there from a URL; what was put there from another is refused."""
+def _refuse_another(record: Path, source: str) -> None:
+    """Refuse to put what a URL holds in the place of what was staged from another."""
     found = _read(record).get("url", source)
     if found != source:
         remedy = "stage one of them into another folder"
         raise ValueError(f"{record}: expected what was staged from {source}, found {found}: {remedy}")
-    return _put(record)
 
 
 def _put(record: Path) -> _Stamps:
