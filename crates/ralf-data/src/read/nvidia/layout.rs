@@ -55,12 +55,14 @@ impl Clip {
         self.first(&["labels", &format!("labels/{name}")], &format!("{clip}.{name}.parquet"))
     }
 
-    /// The tables that may hold the clip's mountings: its own, or those of whole chunks of clips.
+    /// The tables that may hold the clip's mountings: its own, named after it or not (as `pai-clip-dl` leaves them), or
+    /// those of whole chunks of clips. What was found offline goes before what the vehicle knew, as poses are.
     pub(super) fn extrinsics(&self, clip: &str) -> Result<Vec<PathBuf>, DataError> {
         let mut found = Vec::new();
-        for name in ["sensor_extrinsics", "sensor_extrinsics.offline"] {
-            let own = self.first(&["calibration"], &format!("{clip}.{name}.parquet"))?;
-            found.extend(own);
+        for name in ["sensor_extrinsics.offline", "sensor_extrinsics"] {
+            for own in [format!("{clip}.{name}.parquet"), format!("{name}.parquet")] {
+                found.extend(self.first(&["calibration"], &own)?);
+            }
             let folder = self.root.join("calibration").join(name);
             let tables = files::names(&folder)?.into_iter().filter(|name| name.ends_with(".parquet"));
             found.extend(tables.map(|name| folder.join(name)));

@@ -2,10 +2,11 @@
 //!
 //! - The path is the data set's folder with the clip files unzipped where they lay (`radar/NAME/CLIP.NAME.parquet`), a
 //!   clip's folder (`radar/CLIP.NAME.parquet`), or what holds folders of clips. A clip is a sequence.
-//! - A scan is the rows of one `scan_index`, wherever they lie, at their `timestamp`, us. Columns are as published:
-//!   `distance` is `range`, `radial_velocity` is `doppler`, the raw range rate; `exist_probb`, what the sensor itself
-//!   believes, is kept. No row is dropped; one whose distance isn't above 0 has no place.
-//! - Poses are those of `egomotion.offline`, else of `egomotion`: the vehicle's frame is RALF's.
+//! - A scan is the rows of one `scan_index`, wherever they lie, at the median of their `sensor_timestamp`, us: when
+//!   they were measured. Where that is not told, it is at their `timestamp`: when its cycle began. Columns are as
+//!   published: `distance` is `range`, `radial_velocity` is `doppler`, the raw range rate; `exist_probb`, what the
+//!   sensor itself believes, is kept. No row is dropped; one whose distance isn't above 0 has no place.
+//! - Poses are those of `egomotion.offline`, else of `egomotion`: the vehicle's frame is RALF's. So are mountings.
 //! - The LiDAR is compressed with Draco, of which there is no decoder in Rust that could be relied on: it is left out.
 //!   So are the cameras: films behind f-theta lenses.
 

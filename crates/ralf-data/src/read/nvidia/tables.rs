@@ -21,6 +21,9 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
 /// The most detections of a radar in a clip: ten thousand in each of its scans.
 const MOST_DETECTIONS: usize = 1 << 22;
 
+/// No radar takes longer for a scan, ns.
+const LONGEST_CYCLE_NS: i64 = 200_000_000;
+
 /// All scans of a radar.
 pub(super) struct Scans {
     /// In the order of [`COLUMNS`].
@@ -38,8 +41,9 @@ pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
     let index = if table.has("scan_index") { "scan_index" } else { "__index_level_0__" };
     let (indices, times) = (table.integers(index)?, table.microseconds("timestamp")?);
     let of_rows = times.iter().enumerate().map(|(row, time)| nanoseconds(file, row, *time));
-    let scans =
+    let mut scans =
         of_one_time(file, scans(indices.into_iter(), &of_rows.collect::<Result<Vec<_>, _>>()?), &times)?;
+    move_to_when_measured(&table, &mut scans);
     let mut columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<Vec<_>, _>>()?;
     let has_elevation = columns[1].iter().any(|elevation| elevation.is_finite() && *elevation != 0.0);
     without_place(&mut columns);
@@ -69,6 +73,29 @@ fn of_one_time(file: &Path, found: Vec<(i64, Scan)>, times_us: &[i64]) -> Result
         }
     }
     Ok(scans)
+}
+
+/// Moves scans from when their cycle began (`timestamp`) to the median of the times at which their rows were measured
+/// (`sensor_timestamp`). A table that lacks those, or has them on another clock, keeps the former.
+fn move_to_when_measured(table: &ParquetTable, scans: &mut [Scan]) {
+    let Ok(measured_us) = table.microseconds("sensor_timestamp") else { return };
+    let medians: Option<Vec<i64>> = scans.iter().map(|scan| median_ns(scan, &measured_us)).collect();
+    if let Some(medians) = medians {
+        scans.iter_mut().zip(medians).for_each(|(scan, t_ns)| scan.t_ns = t_ns);
+        scans.sort_by_key(|scan| (scan.t_ns, scan.rows().next()));
+    }
+}
+
+/// The median of a scan's rows; `None` unless all lie within a cycle that begins with the scan.
+fn median_ns(scan: &Scan, measured_us: &[i64]) -> Option<i64> {
+    let mut times =
+        scan.rows().map(|row| point_times::nanoseconds(measured_us[row])).collect::<Option<Vec<_>>>()?;
+    let within = |t_ns: &i64| (0..LONGEST_CYCLE_NS).contains(&t_ns.saturating_sub(scan.t_ns));
+    if !times.iter().all(within) {
+        return None;
+    }
+    times.sort_unstable();
+    times.get(times.len() / 2).copied()
 }
 
 /// A time of a row as ns.

@@ -4,10 +4,11 @@
 //! - The path is the data set's folder, its `data`, or one sequence. A sequence is named after its folder.
 //! - A scene of `scenes.json` is a scan of one of the four radars, at its own time. All rows of the table must belong
 //!   to one. Columns are as published: `range_sc` is `range`, `azimuth_sc` is `azimuth`, `vr` is `doppler`, the raw
-//!   range rate, `vr_compensated` is `doppler_compensated`, which is not a number while the vehicle stands; `rcs` in
-//!   dBsm.
+//!   range rate, `vr_compensated` is `doppler_compensated`, which is not a number where its authors had no pose; `rcs`
+//!   in dBsm.
 //! - There is no LiDAR, and the camera, which documents, isn't calibrated: tracking alone says something, and Doppler.
-//! - Poses are those of the odometry, relative to the first; speed and yaw rate are kept as wheel odometry.
+//! - Poses are those of the odometry, relative to the first; speed and yaw rate are kept as wheel odometry. They lead
+//!   on where radars measure a little before or after.
 //! - Radars don't measure elevation and have no published height: they lie on the road.
 //! - `label_id` is the truth, never a column that labels could be made from: [`labels`] says what becomes of it.
 

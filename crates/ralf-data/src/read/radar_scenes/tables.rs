@@ -21,6 +21,13 @@ pub(super) const COLUMNS: [(&str, &str); 9] = [
     ("x_seq", "x_seq"),
     ("y_seq", "y_seq"),
 ];
+
+/// Radars go on measuring for up to 173 ms after the last row of the odometry, so that the motion goes on for so many
+/// poses beyond it.
+const BEYOND: i64 = 6;
+/// Between two of them, ns: on a bend's chord the vehicle is a centimetre beside it.
+const STEP_NS: i64 = 50_000_000;
+
 /// All detections of a sequence.
 pub(super) struct Detections {
     /// In the order of [`COLUMNS`].
@@ -77,5 +84,19 @@ fn motion(file: &Path, opened: &Hdf5File) -> Result<EgoMotion, DataError> {
         odometry.push(OdometrySample { t_ns, velocity: speed[row], yaw_rate: yaw_rate[row] });
         poses.push(PoseSample { t_ns, odom_from_vehicle });
     }
+    let poses = going_on(&odometry, poses);
     EgoMotion::new(odometry, poses).ok_or_else(|| DataError::content(file, "odometry", "rows", "none"))
+}
+
+/// The poses, and some on either side to where the outermost speed and yaw rate lead.
+fn going_on(odometry: &[OdometrySample], poses: Vec<PoseSample>) -> Vec<PoseSample> {
+    let (Some(first), Some(last)) = (poses.first(), poses.last()) else { return poses };
+    let Some(wheels) = EgoMotion::new(odometry.to_vec(), Vec::new()) else { return poses };
+    let beyond = |end: &PoseSample, by_ns: i64| {
+        let t_ns = end.t_ns.saturating_add(by_ns);
+        PoseSample { t_ns, odom_from_vehicle: end.odom_from_vehicle * wheels.between(end.t_ns, t_ns) }
+    };
+    let head = (1..=BEYOND).rev().map(|step| beyond(first, -step * STEP_NS));
+    let tail = (1..=BEYOND).map(|step| beyond(last, step * STEP_NS));
+    head.chain(poses.iter().copied()).chain(tail).collect()
 }

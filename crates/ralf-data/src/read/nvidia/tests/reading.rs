@@ -2,7 +2,7 @@
 
 use super::recording::{
     CLIP, FRONT, REAR, Values, egomotion, extrinsics, radar, write, write_clip, write_compressed,
-    write_unzipped,
+    write_downloaded, write_unzipped,
 };
 use crate::read::Recording;
 use crate::read::nvidia::{open, recognises};
@@ -30,11 +30,13 @@ fn unzipped_chunks_and_folders_of_clips_are_the_same() {
     let (folder, recording) = unzipped();
     assert!(recognises(folder.path()));
     assert_eq!(crate::read::open(folder.path(), None).unwrap().format, "nvidia");
-    let clips = tempfile::tempdir().unwrap();
-    write_clip(clips.path());
-    for path in [clips.path().to_owned(), clips.path().join(CLIP)] {
-        assert!(recognises(&path));
-        assert_eq!(text(&open(&path, &[]).unwrap()), text(&recording));
+    for written in [write_clip, write_downloaded] {
+        let clips = tempfile::tempdir().unwrap();
+        written(clips.path());
+        for path in [clips.path().to_owned(), clips.path().join(CLIP)] {
+            assert!(recognises(&path));
+            assert_eq!(text(&open(&path, &[]).unwrap()), text(&recording));
+        }
     }
     assert!(!recognises(tempfile::tempdir().unwrap().path()));
 }
@@ -70,6 +72,40 @@ fn rows_of_a_scan_index_are_a_scan_and_none_is_dropped() {
         rig.radars.iter().map(|radar| radar.elevation).collect::<Vec<_>>(),
         [Elevation::Measured, Elevation::None]
     );
+}
+
+#[test]
+fn a_scan_is_when_its_rows_were_measured() {
+    let (folder, _) = unzipped();
+    let times = |after_us: [i64; 6]| {
+        let mut rows = radar(true);
+        let Values::Long(begin) = &rows[1].1 else { unreachable!() };
+        let measured = begin.iter().zip(after_us).map(|(begin, after)| begin + after).collect();
+        rows[2].1 = Values::Long(measured);
+        write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
+        let recording = open(folder.path(), &[]).unwrap();
+        only(&recording).sequence().times.radars[0].clone()
+    };
+    let medians = [-48_000_000, 13_000_000, 70_000_000];
+    assert_eq!(times([1_000, 2_000, 30_000, 13_000, 12_000, 20_000]), medians);
+    let begins = [-50_000_000, 0, 50_000_000];
+    assert_eq!(times([1_000, 2_000, 30_000, 13_000, 12_000, 200_000]), begins, "longer than a cycle");
+    assert_eq!(times([1_000, -1, 30_000, 13_000, 12_000, 20_000]), begins, "before the cycle");
+}
+
+#[test]
+fn mountings_found_offline_go_before_what_the_vehicle_knew() {
+    let (folder, _) = unzipped();
+    let mut offline = extrinsics(CLIP);
+    offline
+        .iter_mut()
+        .filter(|(name, _)| *name == "x")
+        .for_each(|(_, x)| *x = Values::Double(vec![3.5, -0.5]));
+    write(&folder.path().join("calibration/sensor_extrinsics.offline/chunk_0000.parquet"), &offline);
+    let recording = open(folder.path(), &[]).unwrap();
+    let radars = &only(&recording).sequence().rig.radars;
+    let x: Vec<f64> = radars.iter().map(|radar| radar.vehicle_from_radar.translation.x).collect();
+    assert_eq!(x, [3.5, -0.5]);
 }
 
 #[test]

@@ -112,6 +112,14 @@ pub(crate) fn write_clip(folder: &Path) {
     write(&of("calibration", "sensor_extrinsics"), &own);
 }
 
+/// Writes a clip as NVIDIA's own `pai-clip-dl` does: mountings aren't named after it, but name it.
+pub(crate) fn write_downloaded(folder: &Path) {
+    write_clip(folder);
+    let calibration = folder.join(CLIP).join("calibration");
+    fs::remove_dir_all(&calibration).unwrap();
+    write(&calibration.join("sensor_extrinsics.parquet"), &extrinsics(CLIP));
+}
+
 /// Writes a table, its rows in one group.
 pub(crate) fn write(file: &Path, columns: &Columns) {
     write_compressed(file, columns, Compression::UNCOMPRESSED);

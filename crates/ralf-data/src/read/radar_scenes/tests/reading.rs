@@ -1,5 +1,6 @@
 //! What is read of a good recording, and what is true of it.
 
+use super::hdf5::Values;
 use super::recording::{SCANS, SPEED, T0, sequence, write_dataset, write_sequence};
 use crate::Label;
 use crate::read::Recording;
@@ -69,6 +70,31 @@ fn places_speeds_and_poses_agree() {
         let [raw, compensated] = ["doppler", "doppler_compensated"].map(&column);
         assert!(raw[3].abs() < 1e-6 && (compensated[3] - 8.0).abs() < 0.2 && compensated[0] == 0.0);
     }
+}
+
+#[test]
+fn the_vehicle_goes_on_where_radars_outlast_the_odometry() {
+    let (folder, _) = dataset();
+    let mut cut = sequence(false);
+    // A quarter of a turn a second, and the last row 110 ms before the last scan.
+    for (name, values) in &mut cut.odometry {
+        match values {
+            Values::Long(values) => values.truncate(11),
+            Values::Double(values) => values.truncate(11),
+            Values::Float(values) => *values = vec![if *name == "vx" { 8.0 } else { 1.5 }; 11],
+            _ => unreachable!(),
+        }
+    }
+    write_sequence(&folder.path().join("data/sequence_1"), &cut);
+    let recording = open(folder.path(), &[]).unwrap();
+    let motion = &only(&recording).sequence().motion;
+    let [last_ns, scan_ns] = [70_000, 180_000].map(|us| (T0 + us) * 1000);
+    let moved = motion.between(last_ns, scan_ns);
+    let turn: f64 = 1.5 * 0.11;
+    let [x, y] = [SPEED / 1.5 * turn.sin(), SPEED / 1.5 * (1.0 - turn.cos())];
+    // Between two poses the vehicle is on the chord, up to 4 mm beside the arc.
+    assert!((moved.translation.x - x).hypot(moved.translation.y - y) < 5e-3, "{moved}");
+    assert!((moved.rotation.angle() - turn).abs() < 1e-3, "{moved}");
 }
 
 #[test]
