@@ -3,7 +3,9 @@
 use crate::outcome::Outcome;
 use crate::progress::say;
 use anyhow::anyhow;
-use ralf_data::{Corrections, GroundTruth, Recording, told_orphaned};
+use ralf_data::{
+    Corrections, GroundTruth, Recording, partly_corrected, told_orphaned, told_partly_corrected,
+};
 use ralf_report::told_corrections;
 use std::fmt::Display;
 use std::path::Path;
@@ -34,6 +36,15 @@ pub(crate) fn merged_truth(
         say(&told(&corrections, "merged into the truth"));
     }
     Ok((GroundTruth::merged(dataset, corrections)?, outcome))
+}
+
+/// Warns where the truth of scans is but what people corrected there.
+pub(crate) fn say_partly_corrected(truth: &GroundTruth, out: &Path) -> anyhow::Result<()> {
+    let said = Corrections::open(out)?;
+    if let Some(sentence) = told_partly_corrected(partly_corrected(truth, &said)) {
+        say(&format!("{}: {sentence}", said.file().display()));
+    }
+    Ok(())
 }
 
 /// What people corrected and accepted in an output folder of a recording, which is said, and nothing else; there must

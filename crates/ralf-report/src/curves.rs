@@ -6,24 +6,28 @@ use ralf::metrics::RankedPoint;
 pub(crate) const BINS: usize = 20;
 
 /// One bin of `w`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Bin {
     /// Detections in it.
     pub(crate) count: usize,
     /// Of these truly plausible, or labelled so.
     pub(crate) plausible: usize,
+    /// The sum of their `w`.
+    sum_w: f64,
 }
 
 impl Bin {
     /// Counts one more.
-    pub(crate) fn add(&mut self, plausible: bool) {
+    pub(crate) fn add(&mut self, w: f32, plausible: bool) {
         self.count += 1;
+        self.sum_w += f64::from(w);
         self.plausible += usize::from(plausible);
     }
 
-    /// The plausible share; `None` of an empty bin.
-    pub(crate) fn share(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.plausible as f64 / self.count as f64)
+    /// The mean `w` and the plausible share; `None` of an empty bin.
+    pub(crate) fn point(&self) -> Option<(f64, f64)> {
+        let count = self.count as f64;
+        (self.count > 0).then(|| (self.sum_w / count, self.plausible as f64 / count))
     }
 }
 
@@ -57,10 +61,11 @@ mod tests {
     fn both_ends_of_w_have_their_bin() {
         let mut bins = [Bin::default(); BINS];
         for (w, plausible) in [(0.0, false), (1.0, true), (0.974, false), (0.976, false)] {
-            bins[bin_of(w)].add(plausible);
+            bins[bin_of(w)].add(w, plausible);
         }
         assert_eq!((bins[0].count, bins[BINS - 1].count), (1, 3));
-        assert_eq!(bins[BINS - 1].share(), Some(1.0 / 3.0));
-        assert_eq!(bins[5].share(), None);
+        let (mean_w, share) = bins[BINS - 1].point().unwrap();
+        assert!((mean_w - 2.95 / 3.0).abs() < 1e-6 && share == 1.0 / 3.0, "{mean_w} {share}");
+        assert_eq!(bins[5].point(), None);
     }
 }

@@ -43,11 +43,11 @@ impl Findings {
             for (bit, count) in self.flags.iter_mut().enumerate() {
                 *count += u64::from(scored.flags >> bit & 1);
             }
-            self.labelled[bin_of(scored.w)].add(scored.plausible);
+            self.labelled[bin_of(scored.w)].add(scored.w, scored.plausible);
             let cause = scored.cause.and_then(|code| names.get(usize::from(code)));
             self.groups.add(scored, by_people.or(cause).map(String::as_str));
             let Some((_, truth)) = scored.truth else { continue };
-            self.truly[bin_of(scored.w)].add(truth);
+            self.truly[bin_of(scored.w)].add(scored.w, truth);
             self.confusion.add(truth, scored.plausible);
             self.ranked.add(scored.w.into(), scored.never_passes, truth);
             self.passed.add(scored, truth);

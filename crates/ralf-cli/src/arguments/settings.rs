@@ -40,8 +40,14 @@ pub(crate) struct SettingsArgs {
 impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
-        let texts: anyhow::Result<Vec<_>> = self.config.iter().map(|file| checked(file)).collect();
-        let texts = texts.context("--config")?;
+        self.resolve_above(None)
+    }
+
+    /// The same above the settings of a run.
+    pub(crate) fn resolve_above(&self, run: Option<&Settings>) -> anyhow::Result<Settings> {
+        let files: anyhow::Result<Vec<_>> = self.config.iter().map(|file| checked(file)).collect();
+        let mut texts: Vec<String> = run.map(Settings::to_toml).transpose()?.into_iter().collect();
+        texts.extend(files.context("--config")?);
         let trajectory = self.trajectory.as_deref();
         trajectory.map_or(Ok(()), is_there).context("--trajectory")?;
         let text = Settings::joined(&texts).context("--config")?;

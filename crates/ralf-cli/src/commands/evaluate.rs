@@ -7,14 +7,14 @@ mod queue;
 mod table;
 
 use crate::arguments::{ChangedArgs, open_and_tell};
-use crate::corrections::merged_truth;
+use crate::corrections::{merged_truth, say_partly_corrected};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::run_summary::{say_not_labelled, say_without};
 use crate::text::print;
 use ralf_data::judge::{Missing, QueueCurve};
 use ralf_data::result::{LabelledRun, labelled_recording};
-use ralf_data::{Balances, Comparison, Corrections, Recording, partly_corrected, told_partly_corrected};
+use ralf_data::{Balances, Comparison, Recording};
 use std::path::{Path, PathBuf};
 
 /// What `ralf evaluate` takes.
@@ -84,10 +84,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let recording = recording_of(args, dataset)?;
     let out = corrections.or(Some(&args.out));
     let (truth, outcome) = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
-    let said = Corrections::open(corrections.unwrap_or(&args.out))?;
-    if let Some(sentence) = told_partly_corrected(partly_corrected(&truth, &said)) {
-        say(&format!("{}: {sentence}", said.file().display()));
-    }
+    say_partly_corrected(&truth, corrections.unwrap_or(&args.out))?;
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
     let evaluation = || comparison.evaluation_of(&args.out, &truth);

@@ -1,7 +1,7 @@
 //! What `ralf tune` and `ralf ablate` share: what is searched for, on which sequences, and how that is shown.
 
-use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::corrections::merged_truth;
+use crate::arguments::{DatasetArgs, STORED_DEPTH, SettingsArgs, threads};
+use crate::corrections::{merged_truth, say_partly_corrected};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
 use crate::run_summary::say_not_used;
@@ -9,6 +9,7 @@ use crate::text::shell_path;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::{Config, Method};
+use ralf_data::views::with_stored;
 use ralf_data::{GroundTruth, Recording, SequenceMismatches, Settings, gather_mismatches};
 use ralf_train::{Found, MismatchTable, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
@@ -26,6 +27,8 @@ pub(super) struct SearchArgs {
     /// Take the corrections of a review, too, from what `ralf label` wrote
     #[arg(long, value_name = "OUT")]
     corrections: Option<PathBuf>,
+    #[arg(long, value_name = "FOLDER", help = STORED_DEPTH)]
+    depth: Option<PathBuf>,
     /// Sequences to tune on
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', required = true)]
     pub(super) train: Vec<String>,
@@ -134,9 +137,12 @@ impl SearchArgs {
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let recording = dataset.open_corrected(base)?;
+        let recording = with_stored(dataset.open_corrected(base)?, self.depth.as_deref(), None)?;
         let (truth, outcome) =
             merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
+        if let Some(out) = corrections {
+            say_partly_corrected(&truth, out)?;
+        }
         Ok((recording, truth, outcome))
     }
 
@@ -184,7 +190,8 @@ impl SearchArgs {
         let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
         let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
         let corrections = self.corrections.iter().map(|out| format!(" --corrections {}", shell_path(out)));
-        let given = corrections.collect::<String>() + &self.settings.told();
+        let depth = self.depth.iter().map(|folder| format!(" --depth {}", shell_path(folder)));
+        let given = corrections.chain(depth).collect::<String>() + &self.settings.told();
         format!("--objective {objective} --trials {trials} --seed {seed}{held}{given}")
     }
 }

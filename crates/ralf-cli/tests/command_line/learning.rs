@@ -163,6 +163,20 @@ fn what_somebody_unlabeled_was_not_left_alone() {
     let mut store = Store::open(&Path::new(&out).join(FILE)).unwrap();
     store.apply(&stroke, &Who::named("ada")).unwrap();
     assert_eq!(counts(), [said, alone - 10]);
+    // What is learned from is read as it was labelled: at this threshold nothing is plausible.
+    let record = format!("{out}/run.json");
+    let text = fs::read_to_string(&record).unwrap();
+    let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();
+    run["settings"]["fusion"]["threshold"] = 0.999_99.into();
+    fs::write(&record, run.to_string()).unwrap();
+    let wrong = |options: &[&str]| {
+        let mut learn = program();
+        learn.args(["learn", &town, "--from", &out, "-o", &dataset.beside("own.txt"), "--json", "-q"]);
+        let told = Ran::of(&learn.args(options).output().unwrap()).exits(0).json();
+        told["corrected"]["tiny"]["wrong_before"].as_u64().unwrap()
+    };
+    assert_eq!(wrong(&[]), 20);
+    assert_ne!(wrong(&["--set", "fusion.threshold=0.5"]), 20, "what is typed wins");
 }
 
 #[test]

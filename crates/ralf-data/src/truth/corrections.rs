@@ -4,6 +4,7 @@ use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
+use crate::tree::SECOND;
 use crate::truth::content::HeldContent;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
@@ -84,6 +85,17 @@ impl Corrections {
         }
         let missing = if there { &file } else { out };
         Err(DataError::content(missing, "file", "corrections", "no such file or folder"))
+    }
+
+    /// The folder of the labels that people saw who corrected them there: of a store's file the one that it lies in.
+    pub fn labels_of(out: &Path) -> &Path {
+        if !out.is_file() {
+            return out;
+        }
+        // OUT/corrections.sqlite or OUT/second/NAME.sqlite.
+        let folder = out.parent().unwrap_or(out);
+        let second = folder.file_name().is_some_and(|name| name == SECOND);
+        folder.parent().filter(|_| second).unwrap_or(folder)
     }
 
     fn file_of(out: &Path) -> PathBuf {

@@ -21,7 +21,7 @@ pub fn told_partly_corrected(scans: usize) -> Option<String> {
     };
     Some(format!(
         "{who} but what people corrected there, mostly errors, for nobody has marked them as reviewed: figures that \
-         count them say little of the labels"
+         count them say little of the labels, and settings tuned by them repeat errors"
     ))
 }
 

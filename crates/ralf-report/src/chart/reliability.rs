@@ -7,7 +7,8 @@ fn edges() -> Vec<f64> {
     (0..=BINS).map(|edge| edge as f64 / BINS as f64).collect()
 }
 
-/// The truly plausible share over `w`, with the counts below. On the diagonal `w` would be a probability.
+/// The truly plausible share over the mean `w` of each bin, with the counts below. On the diagonal `w` would be a
+/// probability.
 pub(crate) fn reliability(bins: &[Bin; BINS], threshold: f64) -> Result<String, ReportError> {
     svg((560, 420), |area| {
         let (above, below) = area.split_vertically(285);
@@ -17,10 +18,7 @@ pub(crate) fn reliability(bins: &[Bin; BINS], threshold: f64) -> Result<String, 
         chart.draw_series(DashedLineSeries::new(diagonal, 5, 5, AXIS.stroke_width(1)))?;
         let cut = [(threshold, 0.0), (threshold, 1.0)];
         chart.draw_series(DashedLineSeries::new(cut, 2, 4, ARTIFACT.stroke_width(2)))?;
-        let half = 0.5 / BINS as f64;
-        let points =
-            edges().into_iter().zip(bins).filter_map(|(edge, bin)| Some((edge + half, bin.share()?)));
-        let points: Vec<_> = points.collect();
+        let points: Vec<(f64, f64)> = bins.iter().filter_map(Bin::point).collect();
         chart.draw_series(LineSeries::new(points.clone(), PLAUSIBLE.stroke_width(3)))?;
         chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, PLAUSIBLE.filled())))?;
         let counts: Vec<u64> = bins.iter().map(|bin| bin.count as u64).collect();

@@ -80,7 +80,8 @@ pub(super) fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) 
     all
 }
 
-/// What is said of rows by models and a calibration that know nothing of a world.
+/// What is said of rows of a world by a model that knows nothing of it. Its calibration is told by other worlds, of
+/// which models spoke that know this one: a line and a share, no more.
 struct Stranger<'a> {
     table: &'a TrainingTable,
     log_odds: &'a [f64],

@@ -8,7 +8,8 @@ use clap::Args;
 use ralf::config::Method;
 use ralf::learned::Model;
 use ralf_data::many::model_of;
-use ralf_data::{GroundTruth, Recording};
+use ralf_data::result::LabelledRun;
+use ralf_data::{Corrections, GroundTruth, RECORD, Recording};
 use std::path::{Path, PathBuf};
 
 /// What belongs to models that are fitted anew.
@@ -59,6 +60,17 @@ impl CorrectArgs {
             );
         }
         Ok(model)
+    }
+
+    /// The folder of the labels that people saw.
+    pub(super) fn shown(&self) -> Option<&Path> {
+        self.from.as_deref().map(Corrections::labels_of)
+    }
+
+    /// How that was labelled; of labels of another program nothing is known.
+    pub(super) fn run(&self) -> anyhow::Result<Option<LabelledRun>> {
+        let shown = self.shown().filter(|out| out.join(RECORD).exists());
+        Ok(shown.map(LabelledRun::open).transpose()?)
     }
 
     /// What is known of a recording: what its review says, what it holds itself, or with both options one above the

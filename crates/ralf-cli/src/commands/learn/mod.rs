@@ -1,27 +1,28 @@
 //! `ralf learn`: a model from recordings whose truth is known.
 
 mod correct;
+mod recordings;
 mod text;
 mod worlds;
 
-use crate::arguments::{SettingsArgs, check_model, tell_left_out, threads};
+use crate::arguments::{SettingsArgs, check_model, threads};
 use crate::outcome::{Outcome, UsageError};
-use crate::progress::{Progress, Stages};
-use crate::run_summary::{say_not_used, say_without};
-use crate::text::{print, shell_path, shell_word};
+use crate::progress::{Progress, Stages, say};
+use crate::text::{print, shell_word};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use correct::CorrectArgs;
-use ralf::config::Config;
+use ralf::config::{Config, LearnedConfig};
 use ralf::evidence::GROUPS;
 use ralf::learned::{Model, Origin, Tree};
-use ralf_data::{GroundTruth, Recording, Settings, TrainingGatherer, TrainingTruth, write_named};
+use ralf_data::result::LabelledRun;
+use ralf_data::{Settings, TrainingGatherer, write_named};
 use ralf_train::learning::{
     CorrectedModel, Correcting, Fitting, NetParameters, Parameters, TrainingTable, correct as correct_model,
     fit,
 };
-use std::collections::BTreeSet;
+use recordings::{Gathering, RecordingArgs};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
@@ -43,7 +44,8 @@ what is printed and stands in the model's file. The same recordings, settings an
 
 With --from or --correct no model is fitted anew: the shipped one, or --model, learns what it gets wrong, in seconds. \
 What people left alone in a scan that they corrected counts a little, too, as it was labelled. Each sequence is \
-judged before, and after by corrections of the others alone.
+judged before, and after by corrections of the others alone. With --from the recording is read as it was labelled: \
+settings and depth are those of OUT, below what is typed here.
 
 Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
@@ -54,10 +56,8 @@ Examples:
   ralf learn recordings/city --correct -o own.txt      the same by the labels in the recording itself
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
-    /// Recordings with corrected labels; each is a world. With --from or --correct, recordings of which people said
-    /// something
-    #[arg(value_name = "DATASET", required_unless_present = "preset")]
-    datasets: Vec<PathBuf>,
+    #[command(flatten)]
+    recordings: RecordingArgs,
     /// The model's file
     #[arg(short, long = "output", visible_alias = "out", value_name = "MODEL")]
     output: PathBuf,
@@ -97,20 +97,28 @@ pub(crate) struct LearnArgs {
 /// Gathers, fits or corrects, writes and prints what the model is worth.
 pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let read_only: Vec<&Path> =
-        arguments.datasets.iter().chain(&arguments.correct.from).map(PathBuf::as_path).collect();
+        arguments.recordings.datasets.iter().chain(&arguments.correct.from).map(PathBuf::as_path).collect();
     check_model("--output", &arguments.output, &read_only)?;
-    let settings = arguments.settings.resolve()?;
+    let run = arguments.correct.run()?;
+    let settings = arguments.settings.resolve_above(run.as_ref().map(LabelledRun::settings))?;
     arguments.check(&settings)?;
+    if !arguments.correct.is_asked() && settings.method.learned.share != LearnedConfig::default().share {
+        say(
+            "warning: learned.share counts where a recording is labelled: what is fitted anew is judged without it",
+        );
+    }
     let begin = arguments.correct.model(&arguments.output)?;
     let stages = Stages::default();
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
     let (every, unsaid) = (arguments.worlds.every(), begin.is_some());
-    let shown = arguments.correct.from.as_deref();
+    let shown = arguments.correct.shown();
     let gatherer = TrainingGatherer { config, seed, unsaid, shown, every, jobs, observer: &stages };
     let mut table = gatherer.table();
-    let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
-    if arguments.worlds.are_asked() {
+    let (correct, beside_simulated) = (&arguments.correct, arguments.worlds.are_asked());
+    let of = Gathering { settings: &settings, correct, run: run.as_ref(), beside_simulated };
+    let mut outcome = arguments.recordings.gather(&gatherer, &of, &mut table)?;
+    if beside_simulated {
         outcome = outcome.and(arguments.worlds.gather(&gatherer, &stages, &mut table)?);
     }
     let learned = match &begin {
@@ -136,19 +144,7 @@ impl LearnArgs {
         if GROUPS.iter().all(|group| self.without_groups.iter().any(|without| without == group)) {
             return Err(UsageError("--without-group: no group of evidence is left to learn from".into()));
         }
-        if settings.motion.trajectory.is_some() && self.datasets.len() != 1 {
-            let found = match self.datasets.len() {
-                0 => "simulated worlds alone".to_owned(),
-                several => several.to_string(),
-            };
-            let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
-            return Err(UsageError(format!("{expected}, found {found}")));
-        }
-        let places = self.datasets.iter().map(|place| place.canonicalize().unwrap_or_else(|_| place.clone()));
-        if places.collect::<BTreeSet<_>>().len() < self.datasets.len() {
-            return Err(UsageError("DATASET: expected each once, found one that is named twice".into()));
-        }
-        Ok(())
+        self.recordings.check(settings)
     }
 
     /// A new model.
@@ -195,7 +191,7 @@ impl LearnArgs {
 
     /// What is learned from, for messages.
     fn heard(&self) -> String {
-        let datasets = self.datasets.iter().chain(&self.correct.from);
+        let datasets = self.recordings.datasets.iter().chain(&self.correct.from);
         datasets.map(|place| place.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 
@@ -211,45 +207,12 @@ impl LearnArgs {
 
     /// Simulated worlds alone hold more plausible detections than recordings do.
     fn expects(&self) -> Option<f64> {
-        self.datasets.is_empty().then_some(EXPECTED)
-    }
-
-    /// Adds what the recordings hold.
-    fn gather(
-        &self,
-        gatherer: &TrainingGatherer,
-        settings: &Settings,
-        table: &mut TrainingTable,
-    ) -> anyhow::Result<Outcome> {
-        let mut outcome = Outcome::Done;
-        for dataset in &self.datasets {
-            let recording = ralf_data::open_with(dataset, None, &settings.topics)?;
-            let recording = settings.correct(recording)?;
-            tell_left_out(&recording);
-            let (truth, all_applied) = self.correct.truth(&recording)?;
-            let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
-            let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
-            let name = name.with_context(|| dataset.display().to_string())?;
-            let is_one_of_several = self.datasets.len() > 1 || self.worlds.are_asked();
-            let world = |sequence: &str| match (is_one_of_several, self.correct.is_asked()) {
-                (false, _) => sequence.to_owned(),
-                (true, false) => name.clone(),
-                (true, true) => format!("{}/{sequence}", dataset.display()),
-            };
-            let not_used = gatherer.add(table, &world, &recording, TrainingTruth::Said(&truth))?;
-            outcome = not_used.iter().map(say_not_used).fold(outcome.and(all_applied), Outcome::and);
-            // Of what people corrected, most sequences may say nothing.
-            if self.correct.from.is_none() {
-                name_without_truth(&recording, &truth);
-            }
-        }
-        Ok(outcome)
+        self.recordings.datasets.is_empty().then_some(EXPECTED)
     }
 
     /// Where the model comes from: the command without what doesn't change it, with what its trees are like.
     fn origin(&self, Parameters { rounds, leaves, .. }: &Parameters) -> Origin {
-        let datasets: String =
-            self.datasets.iter().map(|dataset| format!(" {}", shell_path(dataset))).collect();
+        let recordings = self.recordings.told();
         let neighbours = if self.no_neighbours { " --no-neighbours" } else { "" };
         let mut without: String = self
             .without_groups
@@ -258,7 +221,7 @@ impl LearnArgs {
             .collect();
         without += if self.no_blanking { " --no-blanking" } else { "" };
         let command = format!(
-            "ralf learn{datasets}{}{} --rounds {rounds} --leaves {leaves}{neighbours}{without} --seed {}{}",
+            "ralf learn{recordings}{}{} --rounds {rounds} --leaves {leaves}{neighbours}{without} --seed {}{}",
             self.correct.told(),
             self.worlds.told(),
             self.seed,
@@ -266,11 +229,4 @@ impl LearnArgs {
         );
         Origin { program: ralf_data::program(), command, seed: self.seed, worlds: Vec::new() }
     }
-}
-
-/// Names the sequences of which nothing is learned.
-fn name_without_truth(recording: &Recording, truth: &GroundTruth) {
-    let names = recording.sequences.iter().map(|reader| &reader.sequence().name);
-    let said = |name: &String| truth.scans().iter().any(|scan| scan.sequence == *name);
-    say_without("truth", names.filter(|name| !said(name)));
 }

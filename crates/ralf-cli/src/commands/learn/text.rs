@@ -95,7 +95,9 @@ pub(super) fn corrected_page(judged: &[Judged]) -> String {
     turned(&mut page, width, judged);
     page += "\n\
         F1 (plausible), average precision (AP), accuracy and calibration error (ECE) of what was said. Where that is\n\
-        errors alone they are low whatever the model does: look at what is wrong and what turns.\n\n";
+        errors alone they are low whatever the model does: look at what is wrong and what turns. The model answers\n\
+        for all detections: `ralf label` asks the paper's method where evidence is unlike what the model knows\n\
+        (learned.max_novelty).\n\n";
     let head = "before: F1   AP     acc.   ECE      after: F1   AP     acc.   ECE";
     line(&mut page, width, "", head);
     for Judged { world, before, after, .. } in judged {
