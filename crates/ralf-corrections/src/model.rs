@@ -27,6 +27,8 @@ pub struct Who {
     pub author: String,
     /// What others read of the person.
     pub name: String,
+    /// Whether that is the person's own word: a name that nobody said takes the place of none that was said.
+    pub is_named: bool,
     /// The window it works in: its own edits are no news to it.
     pub tab: Option<String>,
     /// Names this edit alone. One that was made already is not made again, and answered as the first time:
@@ -37,7 +39,7 @@ pub struct Who {
 impl Who {
     /// A person that is known by its name alone.
     pub fn named(name: &str) -> Self {
-        Self { author: name.to_owned(), name: name.to_owned(), tab: None, edit: None }
+        Self { author: name.to_owned(), name: name.to_owned(), is_named: true, tab: None, edit: None }
     }
 }
 

@@ -31,12 +31,13 @@ pub(crate) fn log(on: &Connection, kind: &str, sequence: &str, who: &Who) -> rus
     Ok(on.last_insert_rowid())
 }
 
-/// Notes what a person is called now.
+/// Notes what a person is called now, if it has said so or has no name yet.
 pub(crate) fn know_author(on: &Connection, who: &Who) -> rusqlite::Result<()> {
     on.prepare_cached(
-        "INSERT INTO author (id, name) VALUES (?1, ?2) ON CONFLICT (id) DO UPDATE SET name = ?2 WHERE name <> ?2",
+        "INSERT INTO author (id, name) VALUES (?1, ?2)
+         ON CONFLICT (id) DO UPDATE SET name = ?2 WHERE name <> ?2 AND ?3",
     )?
-    .execute(params![who.author, who.name])
+    .execute(params![who.author, who.name, who.is_named])
     .map(drop)
 }
 

@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tokio::sync::{Semaphore, watch};
 
-/// Sequences whose labels are kept open.
-const SEQUENCES_KEPT: usize = 2;
+/// Sequences whose labels are kept open: as many as people work on, within these, for each may take some 200 MB.
+const SEQUENCES_KEPT: [usize; 2] = [4, 12];
 /// LiDAR scans that are kept as they are sent: some 2 MB each.
 const CLOUDS_KEPT: usize = 24;
 
@@ -63,6 +63,8 @@ impl App {
         // Without labels there is nothing to review, and no store is made.
         let labelled = read_record(out)?.sequences;
         let team = Team::open(out, &labelled, options.second.clone())?;
+        let [least, most] = SEQUENCES_KEPT;
+        let sequences = team.people().len().clamp(least, most);
         Ok(Self {
             store: SharedStore::open(&team.store(out)?)?,
             author: team.second.as_ref().unwrap_or(&options.author).clone(),
@@ -72,7 +74,7 @@ impl App {
             recording,
             out: out.to_owned(),
             writing: Semaphore::new(1),
-            labels: Cache::new(SEQUENCES_KEPT),
+            labels: Cache::new(sequences),
             clouds: Cache::new(CLOUDS_KEPT),
             maps: Cache::new(MAPS_KEPT),
             news: watch::Sender::new(()),
@@ -114,7 +116,7 @@ impl App {
     pub(crate) fn who(&self, person: Person, edit: Option<EditId>) -> Who {
         let who = person.who(&self.author, edit);
         match &self.team.second {
-            Some(name) => Who { name: name.clone(), ..who },
+            Some(name) => Who { name: name.clone(), is_named: true, ..who },
             None => who,
         }
     }

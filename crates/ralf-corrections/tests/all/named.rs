@@ -151,8 +151,13 @@ fn undo_takes_a_mark_back_and_redo_sets_it_again() {
 #[test]
 fn undo_takes_back_ones_own_last_stroke_and_nobody_elses() {
     let mut open = Open::new();
-    let [ada, bob] =
-        ["a1", "b2"].map(|id| Who { author: id.into(), name: "anna".into(), tab: None, edit: None });
+    let [ada, bob] = ["a1", "b2"].map(|id| Who {
+        author: id.into(),
+        name: "anna".into(),
+        is_named: true,
+        tab: None,
+        edit: None,
+    });
     done(open.stroke(0, 1, 99, &ada));
     done(open.stroke(1, 2, 99, &bob));
     let undone = done(open.undo(&ada));
@@ -163,5 +168,10 @@ fn undo_takes_back_ones_own_last_stroke_and_nobody_elses() {
     let renamed = Who { name: "Anna B.".into(), ..bob };
     assert_eq!(conflict(open.stroke(0, 4, 99, &ada)).author, "anna");
     assert_eq!(done(open.undo(&renamed)).scans[0].corrections, []);
+    assert_eq!(conflict(open.stroke(0, 4, 99, &ada)).author, "Anna B.");
+    // A browser that knows no name says nothing of what its person was called before.
+    let unnamed = Who { name: "anybody".into(), is_named: false, ..renamed };
+    let base = conflict(open.stroke(0, 4, 99, &ada)).scans[0].revision;
+    done(open.stroke(base, 5, 99, &unnamed));
     assert_eq!(conflict(open.stroke(0, 4, 99, &ada)).author, "Anna B.");
 }

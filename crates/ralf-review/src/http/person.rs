@@ -23,10 +23,12 @@ impl Person {
     /// The person who makes an edit; without a name of its own it is called `anybody`, and without an own mark
     /// it is anybody.
     pub(crate) fn who(self, anybody: &str, edit: Option<EditId>) -> Who {
+        let is_named = self.name.is_some();
         let name = self.name.unwrap_or_else(|| anybody.to_owned());
         Who {
             author: self.author.unwrap_or_else(|| name.clone()),
             name,
+            is_named,
             tab: self.tab,
             edit: edit.map(|id| id.0),
         }

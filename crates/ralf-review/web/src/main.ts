@@ -44,6 +44,7 @@ import { Viewport } from "./viewer/viewport.js";
 async function start(): Promise<void> {
   const session = openSession();
   const recording = await new Api(session, null).recording();
+  session.serves(recording.store);
   const api = new Api(session, recording.store);
   const store = new Store(initialState(recording, recording.second ?? session.name() ?? recording.author));
   keepPreferences(store);
@@ -64,7 +65,6 @@ async function start(): Promise<void> {
   const first = await firstAddress(recording, store.state.name, location.hash, (name) => api.progress(name));
   if (first === null) return store.set({ loading: false });
   await actions.correct.retry();
-  actions.hear.listen(first.sequence);
   await actions.go.open(first.sequence, first.scan);
 }
 

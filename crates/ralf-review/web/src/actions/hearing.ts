@@ -23,6 +23,11 @@ export class Hearing {
     private readonly queueing: Queueing,
     private readonly relabelling: Relabelling,
   ) {
+    // From the moment a sequence is chosen, before its scans are read: what others change meanwhile is heard of.
+    world.store.watch(
+      ({ sequence }) => [sequence],
+      (sequence) => (sequence === "" ? undefined : this.listen(sequence)),
+    );
     // A stroke got no answer: whether the server is there is asked at once, and not when the long wait ends.
     world.store.watch(
       ({ outbox }) => [outbox.kind],
@@ -31,7 +36,7 @@ export class Hearing {
   }
 
   /** Listens to a sequence's changes, and to no other's, until told otherwise. */
-  listen(sequence: string): void {
+  private listen(sequence: string): void {
     this.listening?.abort();
     this.listening = new AbortController();
     void this.run(sequence, this.listening.signal);
@@ -75,10 +80,12 @@ export class Hearing {
   private async reconnected(sequence: string): Promise<void> {
     const { store } = this.world;
     if (store.state.link.kind === "fine") return;
+    // First of all: while `ralf label` is at work the labels can't be read, and corrections can be written.
+    await this.correcting.retry();
+    if (store.state.outbox.kind === "gone") return;
     await Promise.all([this.relabelling.read(), this.queueing.read(), this.readHistory(sequence)]);
     store.set({ link: { kind: "fine" } });
     await this.adopting.rereadAll();
-    await this.correcting.retry();
   }
 
   /** What can be undone; read again where an own edit came between, whose answer may be the newer one. */

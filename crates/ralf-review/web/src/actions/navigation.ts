@@ -31,6 +31,8 @@ export class Navigation {
       if (opened !== this.opened) return;
       const before = store.state;
       const { radar } = before.queueView;
+      // Nobody told of changes to a sequence that was not on screen.
+      if (sequence !== before.sequence) this.world.loader.forgetScans();
       const known = queue.scans.some((scan) => scan.radar === radar);
       const queueView = { ...before.queueView, radar: known ? radar : null };
       store.set({

@@ -105,12 +105,13 @@ export class Opining {
 
   private async show(change: ProposedChange): Promise<void> {
     const { store } = this.world;
-    const { opinion, cloud, selection } = store.state;
+    const { opinion, cloud, selection, sequence } = store.state;
     if (opinion !== null && !cloud.scans.some((scan) => sameScan(scan, change))) {
       const still = kept(opinion, cloud, selection);
       const at = still.changes.findIndex(({ thing }) => thing === change.thing);
       store.set({ opinion: still, opinionAt: at });
       await this.lookedIn.elsewhere(() => this.navigation.wholeSequence(change));
+      if (sequence !== store.state.sequence) return;
       this.select();
     }
     lookAt(this.world, change);

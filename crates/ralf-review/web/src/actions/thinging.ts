@@ -88,8 +88,11 @@ export class Thinging {
   /** Puts a thing on screen, with all that is known of its place. */
   async show(thing: DoubtfulThing): Promise<void> {
     const { store } = this.world;
+    const { sequence } = store.state;
     const things = await this.load();
     await this.navigation.wholeSequence(thing);
+    // Meanwhile somebody may have chosen another one, whose detections these numbers mean nothing of.
+    if (sequence !== store.state.sequence) return;
     const at = placeOf(thing);
     if (at !== null) this.seen.push(at);
     lookAt(this.world, thing);

@@ -128,8 +128,13 @@ export class Viewing {
 
   /** What the person is called from now on. */
   rename(typed: string): void {
-    const name = typed.trim().slice(0, LONGEST_NAME);
-    if (name === "") return;
+    const given = typed.trim().slice(0, LONGEST_NAME);
+    if (given === "") return;
+    const { people } = this.world.store.state.recording;
+    // Names that differ by case alone are one person's.
+    const name = people.find((known) => known.toLowerCase() === given.toLowerCase()) ?? given;
+    if (people.length > 0 && !people.includes(name))
+      tell(this.world, `Nothing was dealt to ${name}: team.toml knows ${people.join(", ")}.`);
     this.world.session.rename(name);
     this.world.store.set({ name });
   }

@@ -28,6 +28,9 @@ import type {
   Workday,
 } from "./types.js";
 
+/** An edit is answered in moments and a poll within 25 s: after so long, ms, nothing comes over this connection. */
+const PATIENCE_MS = 60_000;
+
 export interface Call {
   readonly signal?: AbortSignal | undefined;
 }
@@ -173,7 +176,8 @@ export class Api {
 
   /** What others change after `since`; `null`: at once, only how far the count is. */
   changes(sequence: string, since: number | null, call?: Call): Promise<Changes> {
-    return this.json("GET", `${inSequence(sequence)}/changes${since === null ? "" : `?since=${since}`}`, call);
+    const path = `${inSequence(sequence)}/changes${since === null ? "" : `?since=${since}`}`;
+    return this.json("GET", path, { signal: withPatience(call?.signal) });
   }
 
   private async table<Header>(path: string, call?: Call): Promise<Table<Header>> {
@@ -188,24 +192,45 @@ export class Api {
 
   private async send(method: string, path: string, call?: Call, body?: object): Promise<Response> {
     const headers = new Headers({ "X-Ralf-Tab": this.session.tab, "X-Ralf-Author": this.session.author });
-    const [token, name] = [this.session.token(), this.session.name()];
-    if (token !== null) headers.set("Authorization", `Bearer ${token}`);
+    const name = this.session.name();
     if (name !== null) headers.set("X-Ralf-Name", encodeURIComponent(name));
     if (this.store !== null) headers.set("X-Ralf-Store", this.store);
     if (body !== undefined) headers.set("Content-Type", "application/json");
-    const request: RequestInit = { method, headers, cache: "no-store", signal: call?.signal ?? null };
+    // Whoever asks again after that asks for the same edit, which is made once.
+    const signal = method === "GET" ? call?.signal : withPatience(call?.signal);
+    const request: RequestInit = { method, headers, cache: "no-store", signal: signal ?? null };
     if (body !== undefined) request.body = JSON.stringify(body);
-    const answer = await received(fetch(`/api/${path}`, request));
+    const answer = await this.asked(path, request, headers);
     if (!answer.ok) throw await failure(answer);
+    return answer;
+  }
+
+  /** The answer to one of the tokens, or else to the last. */
+  private async asked(path: string, request: RequestInit, headers: Headers): Promise<Response> {
+    const [first, ...others] = this.session.tokens();
+    if (first !== undefined) headers.set("Authorization", `Bearer ${first}`);
+    let answer = await received(fetch(`/api/${path}`, request));
+    for (const token of others) {
+      if (answer.status !== 401) break;
+      headers.set("Authorization", `Bearer ${token}`);
+      answer = await received(fetch(`/api/${path}`, request));
+    }
     return answer;
   }
 }
 
-/** Where nothing, or not all of it, came over the wire: the server is gone, unless the page itself gave up. */
+/** Where nothing, or not all of it, came over the wire in time: the server is gone, unless the page itself gave up. */
 async function received<T>(coming: Promise<T>): Promise<T> {
   return coming.catch((error: unknown) => {
-    throw error instanceof TypeError ? new ServerGone() : error;
+    const late = error instanceof DOMException && error.name === "TimeoutError";
+    throw late || error instanceof TypeError ? new ServerGone() : error;
   });
+}
+
+/** Gives up where the page does, and where no answer comes: a connection may end without a word. */
+function withPatience(signal: AbortSignal | undefined): AbortSignal {
+  const late = AbortSignal.timeout(PATIENCE_MS);
+  return signal === undefined ? late : AbortSignal.any([signal, late]);
 }
 
 function part(name: string): string {

@@ -31,9 +31,9 @@ export class Elsewhere extends Refused {
   }
 }
 
-/** Whether no server is there, or another one. */
+/** Whether no server is there, or another one, which may know another token. */
 export function isAway(error: unknown): boolean {
-  return error instanceof ServerGone || error instanceof Elsewhere;
+  return error instanceof ServerGone || error instanceof Elsewhere || error instanceof TokenMissing;
 }
 
 /** Somebody else changed the same scan first; nothing was written. */

@@ -6,8 +6,10 @@ const NAME = "ralf-name";
 const TEN_YEARS_S = 315_360_000;
 
 export interface Session {
-  /** `null`: the page was opened without one. */
-  token(): string | null;
+  /** Those that may be the server's: of these corrections, and of the newest page in this browser. */
+  tokens(): readonly string[];
+  /** These corrections are served by whoever knows the token: it stays theirs when others are served here. */
+  serves(store: string): void;
   /** The window, by which the server leaves out its own changes. */
   readonly tab: string;
   /** The person in this browser: undo takes back what it did, and nobody else's. */
@@ -26,9 +28,17 @@ export function openSession(): Session {
     address.searchParams.delete("token");
     history.replaceState(null, "", address);
   }
+  let own = TOKEN;
   return {
-    // Another window may have been opened with a newer one.
-    token: () => localStorage.getItem(TOKEN),
+    tokens: () => {
+      const known = [own, TOKEN].map((name) => localStorage.getItem(name)).filter((token) => token !== null);
+      return [...new Set(known)];
+    },
+    serves: (store) => {
+      own = `${TOKEN} ${store}`;
+      const token = localStorage.getItem(TOKEN);
+      if (token !== null) localStorage.setItem(own, token);
+    },
     tab: randomName(),
     author: knownAuthor(),
     name: () => localStorage.getItem(NAME),

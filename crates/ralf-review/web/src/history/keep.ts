@@ -9,6 +9,9 @@ import type { Pending } from "./outbox.js";
 const DATABASE = "ralf-review";
 const STROKES = "strokes";
 const WINDOW = "ralf-window";
+/** A window says so often that it's open, ms; browsers let one that isn't seen do so once a minute. */
+const SAID_MS = 10_000;
+const SILENT_MS = 150_000;
 
 interface Kept {
   /** The stroke's own name. */
@@ -73,17 +76,29 @@ function ownWindow(freshName: () => string): string {
 }
 
 /**
- * Which windows on these corrections are closed, or on others now; where the browser doesn't say (not on this machine's
- * own address), none is taken for closed.
+ * Which windows on these corrections are closed, or on others now. Where the browser doesn't say (not on this machine's
+ * own address), each window says now and then that it's open: one that was silent for long is taken for closed, and
+ * should it not be, its strokes are sent twice and made once.
  */
 async function closedWindows(store: string, own: string): Promise<(window: string) => boolean> {
-  if (navigator.locks === undefined) return () => false;
   const lock = (window: string): string => `${WINDOW} ${store} ${window}`;
+  if (navigator.locks === undefined) {
+    sayOpen(lock(own));
+    return (window) => Date.now() - Number(localStorage.getItem(lock(window))) > SILENT_MS;
+  }
   // Held as long as the window is open.
   void navigator.locks.request(lock(own), () => new Promise(() => undefined));
   const { held } = await navigator.locks.query();
   const open = new Set(held?.map(({ name }) => name));
   return (window) => !open.has(lock(window));
+}
+
+function sayOpen(name: string): void {
+  const say = (): void => localStorage.setItem(name, String(Date.now()));
+  say();
+  setInterval(say, SAID_MS);
+  window.addEventListener("pagehide", () => localStorage.removeItem(name));
+  window.addEventListener("pageshow", say);
 }
 
 function opened(): Promise<IDBDatabase> {

@@ -5,7 +5,7 @@
  * is sent again.
  */
 
-import { Conflict, Elsewhere, type Link, linkAfter, messageOf, ServerGone } from "../api/errors.js";
+import { Conflict, isAway, type Link, linkAfter, messageOf } from "../api/errors.js";
 import type {
   BaseRevision,
   ConflictBody,
@@ -178,7 +178,7 @@ export class Outbox {
   private statusAfter(error: unknown, pending: Pending): OutboxStatus {
     if (error instanceof Conflict)
       return { kind: "conflict", body: this.overlaid.named(pending.sequence, error.body), pending };
-    if (error instanceof ServerGone || error instanceof Elsewhere) return { kind: "gone", link: linkAfter(error) };
+    if (isAway(error)) return { kind: "gone", link: linkAfter(error) };
     return { kind: "refused", message: messageOf(error) };
   }
 

@@ -14,7 +14,6 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
     // The button is gone once what it shows is on screen.
     box.focus();
     await actions.correct.showMet();
-    actions.hear.listen(store.state.sequence);
   };
   const show = keyButton("Show it", "", () => void goThere(), "quiet");
   const drop = keyButton("Drop my stroke", "", () => void actions.correct.dropWaiting(), "quiet");

@@ -158,9 +158,17 @@ function repeating(key: Key): Key {
   return { ...key, repeats: true };
 }
 
+type Pressed = Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+
+/** What a key writes; where that is a letter of another script, the letter that lies there on a Latin keyboard. */
+function latin({ key, code }: Pressed): string {
+  const isOther = key.length === 1 && /\p{Letter}/u.test(key) && !/[a-z]/i.test(key);
+  return (isOther ? /^Key([A-Z])$/.exec(code)?.[1] : undefined) ?? key;
+}
+
 /** How a pressed key is called: modifiers, then the key in lower case; a sign's shift is part of the sign. */
-export function keyName(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">): string {
-  const name = event.key.toLowerCase();
+export function keyName(event: Pressed): string {
+  const name = latin(event).toLowerCase();
   const sign = name.length === 1 && !/[a-z]/.test(name);
   const modifiers = [
     event.ctrlKey || event.metaKey ? "ctrl+" : "",

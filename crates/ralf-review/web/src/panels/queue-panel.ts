@@ -118,10 +118,7 @@ function tooltip({ detections, reviewed, orphaned, expected_errors: errors }: Qu
 /** The list of sequences; how far each is stands there once somebody looks into it. */
 function sequenceList({ store, actions }: Page): HTMLElement {
   const list = select("Sequence", [], (name) => {
-    void actions.go.open(name).then(() => {
-      list.value = store.state.sequence;
-      actions.hear.listen(store.state.sequence);
-    });
+    void actions.go.open(name).then(() => (list.value = store.state.sequence));
   });
   list.addEventListener("focus", () => void actions.go.readProgress());
   store.watch(

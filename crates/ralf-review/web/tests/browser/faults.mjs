@@ -8,7 +8,7 @@ const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 /** Fails where axe calls something serious. */
 export async function faultsOf(page, where) {
   await page.evaluate(await readFile(AXE, "utf8"));
-  const { violations } = await page.evaluate(() => window.axe.run());
+  const { violations } = await page.evaluate(() => window.axe.run({ resultTypes: ["violations"] }));
   const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
   const said = serious.map(
     ({ id, nodes }) => `${where}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`,

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Elsewhere, type Link, linkAfter, Refused, ServerGone } from "../../src/api/errors.js";
+import { Elsewhere, isAway, type Link, linkAfter, Refused, ServerGone, TokenMissing } from "../../src/api/errors.js";
 import type { Pending } from "../../src/history/outbox.js";
 import { toDrop, trouble } from "../../src/panels/banner.js";
 import { savedState } from "../../src/panels/status-bar.js";
@@ -45,4 +45,8 @@ test("the stroke that would be dropped is named before it is", () => {
   assert.equal(toDrop(gone), "Drop the last stroke (plausible, 0 detections)");
   assert.equal(toDrop(refused), "Drop the refused stroke (artifact, 2 detections)");
   assert.equal(toDrop(page({ kind: "fine" }, { waiting, outbox: { kind: "saving" } })), null);
+});
+
+test("a server that knows another token refuses no stroke for good: it may be another one", () => {
+  assert.deepEqual([new TokenMissing(), new Refused(400, "no")].map(isAway), [true, false]);
 });

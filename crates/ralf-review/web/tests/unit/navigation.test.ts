@@ -14,11 +14,14 @@ test("a sequence whose answer comes after a later choice doesn't take its place"
     queue: (name: string) => new Promise((answer) => answers.set(name, answer)),
     history: () => Promise.resolve(store.state.history),
   };
-  const go = new Navigation({ store, api } as unknown as World, {} as Moment);
+  let forgotten = 0;
+  const loader = { forgetScans: () => (forgotten += 1) };
+  const go = new Navigation({ store, api, loader } as unknown as World, {} as Moment);
   const opening = ["00", "01"].map((name) => go.open(name));
   for (const name of ["01", "00"]) {
     answers.get(name)?.({ scans: [], progress: store.state.progress });
     await Promise.all(name === "00" ? opening : [opening[1]]);
     assert.equal(store.state.sequence, "01");
   }
+  assert.equal(forgotten, 1, "of a sequence that was not on screen nobody told what others changed");
 });

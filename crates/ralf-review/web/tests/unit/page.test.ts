@@ -117,11 +117,14 @@ test("classes are found by name, cluster and number; those that begin with it fi
 });
 
 test("keys have one name each, with or without their shift", () => {
-  const event = { key: "z", ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
+  const event = { key: "z", code: "KeyZ", ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
   assert.equal(keyName({ ...event, key: "Z", ctrlKey: true, shiftKey: true }), "ctrl+shift+z");
   assert.equal(keyName({ ...event, metaKey: true }), "ctrl+z");
   assert.equal(keyName({ ...event, key: "?", shiftKey: true }), "?");
   assert.equal(keyName({ ...event, key: "ArrowLeft" }), "arrowleft");
+  assert.equal(keyName({ ...event, key: "я", ctrlKey: true }), "ctrl+z", "where the letter lies on a Russian keyboard");
+  assert.equal(keyName({ ...event, key: "y" }), "y", "Latin letters count as they are printed");
+  assert.equal(keyName({ ...event, key: "х", code: "BracketLeft" }), "х");
   assert.deepEqual(shownKey("ctrl+shift+z"), ["Ctrl", "Shift", "Z"]);
   assert.deepEqual(shownKey("+"), ["+"]);
 });

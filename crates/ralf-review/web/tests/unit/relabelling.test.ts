@@ -89,3 +89,13 @@ test("after somebody labelled again the next thing is one of the new labels, and
   desk.store.set({ shown: new Uint8Array([1, 1, 1]) });
   assert.equal(thinging.whole(chosen), chosen, "what belongs together in these labels isn't known yet");
 });
+
+test("a thing whose sequence is left while its scans are read is not looked for in another one", async () => {
+  const desk = new Desk();
+  const chosen = new Uint8Array(3);
+  const wholeSequence = (): Promise<void> =>
+    Promise.resolve(desk.store.set({ sequence: "01", selection: chosen, thing: null }));
+  const navigation = { wholeSequence } as unknown as Navigation;
+  await new Thinging(desk.world, navigation, {} as Adopting).next();
+  assert.deepEqual([desk.store.state.selection, desk.store.state.thing], [chosen, null]);
+});

@@ -106,7 +106,7 @@ test("what others change is heard with what can be undone by now, and the order 
   Object.defineProperty(globalThis, "document", { value: page, configurable: true });
   window.history = ONE;
   window.scans = [needs(2, 60), needs(1, 2)];
-  new Hearing(world, window.adopting, window.correcting, window.queueing, new Relabelling(world)).listen("00");
+  new Hearing(world, window.adopting, window.correcting, window.queueing, new Relabelling(world));
   for (let tick = 0; tick < 20 && window.store.state.history !== ONE; tick += 1)
     await new Promise((resolve) => setTimeout(resolve, 10));
   assert.equal(window.store.state.history, ONE);
