@@ -34,8 +34,6 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     match cli.run().map(at_the_end) {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::Partial) => 3,
-        // Whoever reads our output has enough of it, as in `ralf inspect x | head`.
-        Err(error) if text::is_broken_pipe(&error) => 0,
         Err(error) => {
             say_error(&error);
             if error.is::<UsageError>() { 2 } else { 1 }

@@ -20,18 +20,17 @@ pub(crate) fn tamed(text: &str) -> Cow<'_, str> {
     text.chars().map(tame).collect()
 }
 
-/// Prints a result to standard output.
+/// Prints a result to standard output. Whoever reads it may have enough of it, as in `ralf inspect x | head`: that is
+/// no failure, and what a command has to say besides is said.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     let text = tamed(text);
     let end = if text.ends_with('\n') { "" } else { "\n" };
     let mut stdout = io::stdout().lock();
     let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.write_all(end.as_bytes()));
-    printed.and_then(|()| stdout.flush()).context("standard output")
-}
-
-/// Whether an error is that nobody reads our standard output any more.
-pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    match printed.and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        printed => printed.context("standard output"),
+    }
 }
 
 /// What is said over several lines, as one.

@@ -13,10 +13,11 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::open::recognised;
 use crate::read::{Recording, open_selected};
-use crate::result::Component;
 use crate::result::json::{read_json, write_json};
+use crate::result::{Component, is_under_way};
 use crate::run::{
-    Earlier, LabelRun, Observer, Outcome, Planned, Stretch, StretchOutcome, check_output_folder,
+    Earlier, LabelRun, Observer, Outcome, Planned, Stretch, StretchOutcome, check_folder_of_many,
+    check_output_folder, read_record,
 };
 use crate::settings::Settings;
 use crate::tree::{PLAN, RECORD};
@@ -284,11 +285,18 @@ pub fn planned(out: &Path) -> Result<Vec<PathBuf>, DataError> {
 }
 
 /// Puts the parts of a job together that was planned for this folder. Scans that nobody has labelled are labelled now.
+/// Of a recording that is gone after all was labelled the labels stay ([`Outcome::gone`]).
 ///
 /// # Errors
 /// A folder that nothing was planned for, and those of [`Job::label`].
 pub fn assemble(out: &Path, jobs: NonZeroUsize, observer: &dyn Observer) -> Result<Outcome, DataError> {
     let job: Job = read_json(&out.join(PLAN))?;
+    if !files::exists(&job.recording)? && files::exists(&out.join(RECORD))? && !is_under_way(out)? {
+        let record = read_record(out)?;
+        let gone = record.sequences.iter().map(|sequence| sequence.name.clone()).collect();
+        let (labelled, left_out, warnings) = Default::default();
+        return Ok(Outcome { record, labelled, earlier: Earlier::default(), left_out, gone, warnings });
+    }
     // The folder may have another name on this machine.
     Job { out: out.to_owned(), ..job }.label(jobs, observer)
 }
@@ -296,8 +304,10 @@ pub fn assemble(out: &Path, jobs: NonZeroUsize, observer: &dyn Observer) -> Resu
 /// A folder in `out` for each recording, by the last part of its path.
 ///
 /// # Errors
-/// A name that no folder can have, or that two of them have.
+/// A name that no folder can have, or that two of them have; and an `out` that is a recording, or lies in one or among
+/// results.
 pub fn folders(recordings: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, DataError> {
+    check_folder_of_many(out)?;
     let mut found: Vec<PathBuf> = Vec::new();
     for recording in recordings {
         // `.` and `..` have the name of the folder that they lead to.

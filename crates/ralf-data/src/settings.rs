@@ -7,6 +7,7 @@ use crate::read::{MotionSettings, Recording, SensorCorrection, corrected, idle};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::Path;
 use toml::{Table, Value};
 
 /// Tables that readers of recordings know, and the method does not.
@@ -82,7 +83,8 @@ impl Settings {
     /// The same, with paths that lead to the same files from every folder.
     pub(crate) fn anywhere(&self) -> Self {
         let mut settings = self.clone();
-        settings.motion.trajectory = self.motion.trajectory.as_deref().map(files::whole);
+        let found = |file: &Path| file.canonicalize().unwrap_or_else(|_| files::whole(file));
+        settings.motion.trajectory = self.motion.trajectory.as_deref().map(found);
         settings
     }
 

@@ -1,7 +1,7 @@
 //! `ralf cluster`: many recordings on many machines, by three steps that anything can start.
 
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
-use crate::outcome::{Outcome, say_left_out};
+use crate::outcome::{Outcome, UsageError, say_left_out};
 use crate::progress::{Stages, say};
 use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_gone, say_lacking};
 use crate::text::{grouped, in_a_line, print};
@@ -27,7 +27,7 @@ Examples:
 
 With Slurm:
   n=$(ralf cluster plan drives/* -o out)
-  [ $n = 0 ] || sbatch --wait --array=0-$((n - 1)) --wrap 'ralf cluster label out --task $SLURM_ARRAY_TASK_ID'
+  [ \"${n:-0}\" = 0 ] || sbatch --wait --array=0-$((n - 1)) --wrap 'ralf cluster label out --task $SLURM_ARRAY_TASK_ID'
   ralf cluster assemble out")]
 pub(crate) struct ClusterArgs {
     #[command(subcommand)]
@@ -127,6 +127,10 @@ pub(crate) fn run(arguments: &ClusterArgs) -> anyhow::Result<Outcome> {
 fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     arguments.method.apply(&mut settings.method, &arguments.settings)?;
+    if settings.motion.trajectory.is_some() && arguments.recordings.len() > 1 {
+        let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
+        return Err(UsageError(format!("{expected}, found {}", arguments.recordings.len())).into());
+    }
     let (mut planned, mut outcome) = (Vec::new(), Outcome::Done);
     let folders = many::folders(&arguments.recordings, &arguments.output)?;
     for (recording, out) in arguments.recordings.iter().zip(&folders) {

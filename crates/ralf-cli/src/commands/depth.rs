@@ -33,7 +33,7 @@ pub(crate) struct DepthArgs {
     dataset: DatasetArgs,
     #[command(flatten)]
     model: DepthModelArgs,
-    /// Folder for the depth images
+    /// Folder for the depth images; with --check and no network, of those that are checked
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     /// Print how far depth lies from LiDAR points that it was not scaled with: local, RANSAC and Huber scaling
@@ -70,6 +70,8 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
         let without = fill_depth(&store, &recording, &model, all_images, jobs)?;
         outcome = Outcome::done_if(without.iter().all(Vec::is_empty));
         recording = store.attach(recording);
+    } else if let Some(folder) = &arguments.output {
+        recording = DepthStore::open(folder)?.attach(recording);
     }
     if arguments.check {
         let mut checks = Vec::new();

@@ -5,10 +5,10 @@ mod ros;
 
 use super::check::page::page as check_page;
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::Progress;
 use crate::run_summary::run_summary;
-use crate::text::{aligned, counted, grouped, print};
+use crate::text::{aligned, counted, grouped, listed, print};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
@@ -19,7 +19,10 @@ use ralf_data::result::{Places, is_under_way};
 use ralf_data::run::{RunRecord, read_record};
 use ralf_data::{Recording, SequenceReader};
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+/// So many sequences are named where another one was asked for.
+const SHOWN: usize = 20;
 
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
@@ -55,7 +58,7 @@ pub(crate) struct InspectArgs {
 pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let folder = &arguments.dataset.dataset;
     if Places::new(folder).record_file().is_file() || is_under_way(folder)? {
-        return inspect_run(folder, arguments.json);
+        return inspect_run(arguments);
     }
     let mut settings = arguments.settings.resolve()?;
     if let Some(file) = &arguments.write_topics {
@@ -93,6 +96,24 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+impl InspectArgs {
+    /// Options that say how a recording is read say nothing of labels.
+    fn refuse_of_recordings(&self) -> Result<(), UsageError> {
+        let DatasetArgs { format, topics, .. } = &self.dataset;
+        let given = [
+            ("--format", format.is_some()),
+            ("--topics", topics.is_some()),
+            ("--config, --set or --trajectory", self.settings.are_given()),
+            ("--write-topics", self.write_topics.is_some()),
+            ("--quick", self.quick),
+            ("--distributions", self.distributions),
+        ];
+        let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+        let out = self.dataset.dataset.display();
+        Err(UsageError(format!("{option}: expected a recording, found what `ralf label` wrote ({out})")))
+    }
+}
+
 /// Each sequence's sensors, times and scans.
 fn looks(recording: &Recording, config: &Config, quick: bool) -> Vec<Inspection> {
     recording.sequences.iter().map(|reader| look_at(reader.as_ref(), config, quick)).collect()
@@ -115,9 +136,25 @@ fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspect
     look
 }
 
-fn inspect_run(out: &Path, json: bool) -> anyhow::Result<Outcome> {
-    let record = read_record(out)?;
-    if json {
+/// The labels of a run, of all sequences or of those that are asked for.
+fn inspect_run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
+    let out = &arguments.dataset.dataset;
+    arguments.refuse_of_recordings()?;
+    let mut record = read_record(out)?;
+    let asked = &arguments.dataset.sequences;
+    let holds = |name: &str| record.sequences.iter().any(|sequence| sequence.name == name);
+    if let Some(unknown) = asked.iter().find(|name| !holds(name)) {
+        let known: Vec<&str> = record.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
+        let (place, known) = (out.display(), listed(&known, SHOWN));
+        return Err(
+            UsageError(format!("--sequence: expected one of {place} ({known}), found {unknown}")).into()
+        );
+    }
+    if !asked.is_empty() {
+        record.sequences.retain(|sequence| asked.contains(&sequence.name));
+        record.inputs.retain(|input| asked.contains(&input.sequence));
+    }
+    if arguments.json {
         print(&serde_json::to_string_pretty(&record)?)?;
     } else {
         let RunRecord { version, format, inputs, .. } = &record;

@@ -1,6 +1,6 @@
 //! Many recordings in three steps: what comes out is what `ralf label` writes.
 
-use crate::support::{Dataset, Ran, Shape, program, ralf, without_timings};
+use crate::support::{Dataset, Ran, Shape, program, ralf, tree, without_timings};
 use std::fs;
 use std::path::Path;
 
@@ -19,6 +19,11 @@ fn three_steps_make_what_one_command_makes() {
         ralf(["cluster", "label", &out, "--task", &task.to_string()]).exits(0).says_nothing();
     }
     ralf(["cluster", "label", &out, "--task", &tasks.to_string()]).exits(1).says(["expected a task below"]);
+    // All is labelled, though it isn't put together: nothing is left to plan, and numbers that wait have nothing to do.
+    let plan = ["cluster", "plan", "-q", &dataset.path, "-o", &out, "--scans", "5"];
+    ralf(plan).exits(0).prints(["0"]);
+    let last = (tasks - 1).to_string();
+    ralf(["cluster", "label", &out, "--task", &last]).exits(0).says(["nothing to do"]);
     ralf(["cluster", "assemble", "--quiet", &out]).exits(3).says(["no labels: ", "sequence.toml"]);
     ralf(["label", "--quiet", &dataset.path, "-o", &dataset.out]).exits(0);
     let name = std::path::Path::new(&dataset.path).file_name().unwrap().to_str().unwrap();
@@ -28,6 +33,28 @@ fn three_steps_make_what_one_command_makes() {
     // All is done: there is nothing left to plan.
     let again = ralf(["cluster", "plan", "--quiet", &dataset.path, "-o", &out]).exits(0);
     assert_eq!(again.stdout.trim(), "0");
+    // Drives are put away once they are labelled.
+    fs::rename(&dataset.path, dataset.beside("archive")).unwrap();
+    let assembled = ralf(["cluster", "assemble", "-q", &format!("{out}/{name}")]).exits(0);
+    assembled.prints(["1 of 1 recordings"]).says(["found none of 00", "their labels stay"]);
+}
+
+#[test]
+fn a_place_among_measurements_and_a_trajectory_of_several_recordings_are_refused() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let [other, out] = ["other", "many"].map(|name| dataset.beside(name));
+    ralf(["convert", "-q", &dataset.path, "-o", &other]).exits(0);
+    let before = tree(&other);
+    for place in ["", "/sequences", "/sequences/00/radar_front"] {
+        let place = format!("{other}{place}");
+        ralf(["cluster", "plan", "-q", &dataset.path, "-o", &place]).exits(1).ends_with_error([&place]);
+        assert!(tree(&other) == before, "{place}");
+    }
+    let poses = dataset.beside("poses.tum");
+    fs::write(&poses, "1700000000.0 0 0 0 0 0 0 1\n1700000001.0 8 0 0 0 0 0 1\n").unwrap();
+    let plan = ["cluster", "plan", "-q", &dataset.path, &other, "-o", &out, "--trajectory", &poses];
+    ralf(plan).exits(2).ends_with_error(["--trajectory", "expected one DATASET", "found 2"]);
+    assert!(!Path::new(&out).exists());
 }
 
 #[test]

@@ -221,8 +221,8 @@ fn other_settings_replace_what_a_killed_run_left() {
     let dataset = Dataset::of(&Shape { scans: 60, sequences: &["00", "01"], ..Shape::default() });
     kill_midway(&dataset, "1");
     // A kill may fall into the writing of a file.
-    fs::write(dataset.result("radar_front/000000.label.part"), "half").unwrap();
-    fs::write(dataset.result("plausibility.parquet.part"), "half").unwrap();
+    fs::write(dataset.result("radar_front/.000000.label.part"), "half").unwrap();
+    fs::write(dataset.result(".plausibility.parquet.part"), "half").unwrap();
     let fresh = dataset.beside("fresh");
     let labelled = |out: &str| {
         let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];

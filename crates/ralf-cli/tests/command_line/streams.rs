@@ -126,6 +126,33 @@ fn a_reader_who_has_enough_is_no_failure() {
         drop(reader);
         Ran::of(&program().args(command).stdout(writer).output().unwrap()).exits(0);
     }
+    // What a command has to say besides is said all the same.
+    dataset.cut("radar_front/000001.bin", 3);
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut label = program();
+    label.args(["label", path, "-o", &dataset.beside("other"), "-q"]).stdout(writer);
+    Ran::of(&label.output().unwrap()).exits(3).says(["not labelled: ", "radar_front"]);
+}
+
+#[test]
+fn options_that_say_nothing_of_labels_are_refused_where_labels_are_shown() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    ralf(["label", "-q", &dataset.path, "-o", &dataset.out]).exits(0);
+    let out = dataset.out.as_str();
+    let one = ralf(["inspect", out, "--sequence", "01", "--json"]).exits(0).json();
+    let names: Vec<&str> = one["sequences"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|sequence| sequence["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["01"]);
+    ralf(["inspect", out, "--sequence", "02"]).exits(2).ends_with_error(["--sequence", "00, 01", "found 02"]);
+    for option in [&["--quick"][..], &["--distributions"], &["--set", "lidar.beta=1"], &["--format", "ros"]] {
+        let ran = Ran::of(&program().args(["inspect", out]).args(option).output().unwrap());
+        ran.exits(2).ends_with_error([option[0], "expected a recording"]);
+    }
 }
 
 #[cfg(target_os = "linux")]

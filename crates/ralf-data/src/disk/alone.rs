@@ -13,8 +13,7 @@ pub(crate) fn open_alone(path: &Path) -> Result<File, Error> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => open_existing(path)?,
             opened => opened?,
         };
-        // A file system without locks: its users go on as they did without.
-        unless(ErrorKind::Unsupported, open.lock())?;
+        open.lock().or_else(|error| if lacks_locks(&error) { Ok(()) } else { Err(error) })?;
         // The one before may have put it in its place meanwhile, or removed it.
         if is_at(&open, path) {
             // Emptying one that is empty would cost as much as writing it.
@@ -45,6 +44,15 @@ fn options() -> fs::OpenOptions {
     let mut options = File::options();
     options.read(true).write(true);
     options
+}
+
+/// Whether a lock failed because the file system has none, as NFS without its lock daemon: its users go on as they did
+/// without.
+pub(crate) fn lacks_locks(error: &Error) -> bool {
+    /// Linux's ENOLCK, which has no kind of its own.
+    const NO_LOCKS: i32 = 37;
+    let no_locks = cfg!(target_os = "linux") && error.raw_os_error() == Some(NO_LOCKS);
+    no_locks || error.kind() == ErrorKind::Unsupported
 }
 
 fn unless(harmless: ErrorKind, result: Result<(), Error>) -> Result<(), Error> {

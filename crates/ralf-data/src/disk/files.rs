@@ -5,6 +5,7 @@ use super::real_path::through_link;
 use crate::error::DataError;
 use ralf_files::Kind;
 use std::collections::HashMap;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -60,14 +61,13 @@ pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f3
     Ok((0..columns).map(column).collect())
 }
 
-/// The packed little-endian float32 rows of `N` that a file's content holds.
+/// The rows of `N` packed little-endian float32 that a file's content holds, each as its bytes.
 pub(crate) fn f32_rows<'a, const N: usize>(
     file: &Path,
     bytes: &'a [u8],
-) -> Result<impl ExactSizeIterator<Item = [f32; N]> + Clone + use<'a, N>, DataError> {
+) -> Result<&'a [[[u8; 4]; N]], DataError> {
     check_f32_rows(file, bytes.len(), N)?;
-    let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
-    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)))
+    Ok(bytes.as_chunks::<4>().0.as_chunks::<N>().0)
 }
 
 /// The bytes of packed little-endian float32.
@@ -214,9 +214,10 @@ pub(crate) fn create_new(file: &Path) -> std::io::Result<fs::File> {
     }
 }
 
-/// Where a file is written before it is renamed.
+/// Where a file is written before it is renamed: hidden, for people have files `NAME.part` of their own.
 pub(crate) fn beside(file: &Path) -> PathBuf {
-    let mut name = file.file_name().unwrap_or_default().to_owned();
+    let mut name = OsString::from(".");
+    name.push(file.file_name().unwrap_or_default());
     name.push(".part");
     file.with_file_name(name)
 }
@@ -279,10 +280,10 @@ mod tests {
             let error = check_writable(&place(&name)).unwrap_err().to_string();
             assert!(error.contains(&name), "{error}");
         }
-        fs::write(place("other.part"), "mine").unwrap();
+        fs::write(place(".other.part"), "mine").unwrap();
         check_writable(&place("no/such/other")).unwrap();
-        assert_eq!(names(folder.path()).unwrap(), ["file", "other.part"]);
-        for name in ["file", "other.part"] {
+        assert_eq!(names(folder.path()).unwrap(), ["file"]);
+        for name in [".other.part", "file"] {
             assert_eq!(fs::read(place(name)).unwrap(), b"mine");
         }
     }
@@ -311,7 +312,11 @@ mod tests {
         let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         write_whole(&file, &bytes).unwrap();
         assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
-        assert!(f32_rows::<2>(&file, &bytes).unwrap().eq([[1.0, 2.0], [3.0, 4.0]]));
+        let rows = f32_rows::<2>(&file, &bytes).unwrap();
+        assert_eq!(
+            rows.as_flattened().iter().map(|b| f32::from_le_bytes(*b)).collect::<Vec<_>>(),
+            [1.0, 2.0, 3.0, 4.0]
+        );
         write_whole(&file, &bytes[..15]).unwrap();
         let error = read_f32_columns(&file, 2).unwrap_err().to_string();
         assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");

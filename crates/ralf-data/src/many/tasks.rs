@@ -28,21 +28,22 @@ enum Line {
 
 /// Writes down what was planned into the folder `out` now: the output folder of each recording, with its tasks. Of
 /// other recordings the tasks stay that were planned before, until they are put together. Returns how many lines there
-/// are; one that is empty has nothing to do. Where nothing could be planned, and nothing was before, nothing is
-/// written.
+/// are up to the last task; one that is empty has nothing to do, and so have those after it that held tasks once. Where
+/// nothing could be planned, and nothing was before, nothing is written.
 ///
 /// # Errors
 /// What can't be read or written.
 pub fn write_tasks(out: &Path, planned: &[(&Path, Vec<Task>)]) -> Result<usize, DataError> {
-    if planned.is_empty() && !files::exists(out)? {
+    let (file, lock) = (out.join(TASKS), out.join(LOCK));
+    if planned.is_empty() && !files::exists(&file)? {
         return Ok(0);
     }
-    let (file, lock) = (out.join(TASKS), out.join(LOCK));
     fs::create_dir_all(out).map_err(DataError::io(out))?;
     let alone = open_alone(&lock).map_err(DataError::io(&lock))?;
     let written = lines(&file, out, planned).and_then(|lines| {
         let text: String = lines.iter().flat_map(|line| [line.as_str(), "\n"]).collect();
-        files::write_whole(&file, text.as_bytes()).map(|()| lines.len())
+        let tasks = lines.iter().rposition(|line| !line.is_empty()).map_or(0, |last| last + 1);
+        files::write_whole(&file, text.as_bytes()).map(|()| tasks)
     });
     let removed = fs::remove_file(&lock).map_err(DataError::io(&lock));
     drop(alone);
@@ -83,9 +84,6 @@ fn lines(file: &Path, out: &Path, planned: &[(&Path, Vec<Task>)]) -> Result<Vec<
     }
     let left = fill(&mut lines, homeless, |_| true);
     lines.extend(left.into_iter().map(Line::Taken));
-    while matches!(lines.last(), Some(Line::Free(_))) {
-        lines.pop();
-    }
     let text = |line| match line {
         Line::Taken(text) => text,
         Line::Free(_) => String::new(),

@@ -1,9 +1,8 @@
 //! One writer at a time: a lock that the system takes back when its holder ends, however it ends.
 
-use crate::disk::alone::is_at;
+use crate::disk::alone::{is_at, lacks_locks};
 use crate::error::DataError;
 use std::fs::{self, File, TryLockError};
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The right to write to a place, until it is dropped.
@@ -59,8 +58,7 @@ impl WriterLock {
                 Ok(()) if !is_at(&open, &file) => {}
                 Ok(()) => return Ok(Self { file, made, shared, _open: open }),
                 Err(TryLockError::WouldBlock) => return Err(DataError::Busy { place: place.to_owned() }),
-                // A file system without locks: its users go on as they did without.
-                Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
+                Err(TryLockError::Error(error)) if lacks_locks(&error) => {
                     return Ok(Self { file, made, shared, _open: open });
                 }
                 Err(TryLockError::Error(error)) => return Err(DataError::Io { file, error }),

@@ -41,6 +41,7 @@ pub use checks::check_all;
 pub use earlier::Earlier;
 pub use in_memory::InMemory;
 pub use observer::{Observer, Part, Stage, Unwatched};
+pub(crate) use place::check_folder_of_many;
 pub use place::check_output_folder;
 pub use stretch::{Planned, Stretch, StretchOutcome};
 pub use warnings::told_gone;

@@ -3,7 +3,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::open::recognised;
-use crate::read::{layout, refuse_to_write_into, ros};
+use crate::read::{layout, refuse_own_places, refuse_to_write_into, ros};
 use crate::result::{OutFolder, is_under_way};
 use crate::tree::{LABELS, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
 use serde::Deserialize;
@@ -27,6 +27,16 @@ pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError
     }
     refuse_recording(out)?;
     refuse_other_record(out, &record)
+}
+
+/// Refuses a folder for the folders of many recordings' results that is a recording itself, or lies in one or among
+/// results.
+///
+/// # Errors
+/// Such a place.
+pub(crate) fn check_folder_of_many(out: &Path) -> Result<(), DataError> {
+    refuse_own_places(out)?;
+    refuse_recording(out)
 }
 
 /// Labels among measurements would be taken for a part of them.

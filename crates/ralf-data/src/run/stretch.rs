@@ -64,9 +64,9 @@ impl Stretch {
 }
 
 impl LabelRun<'_> {
-    /// Parts of the work, of so many scans at most, for all sequences that are not labelled yet. The output folder is
-    /// made ready as by [`Self::execute`], and the inputs' hashes are kept there, so that no part has to read all of
-    /// them.
+    /// Parts of the work, of so many scans at most, for all sequences that are not labelled yet; parts of which all
+    /// scans are kept are done. The output folder is made ready as by [`Self::execute`], and the inputs' hashes are
+    /// kept there, so that no part has to read all of them.
     ///
     /// # Errors
     /// Those of [`Self::execute`].
@@ -91,13 +91,16 @@ impl LabelRun<'_> {
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
             folder.begin(&identity.fingerprint, &Origin::of(task, &identity.inputs))?;
             folder.remember(identity, &task.names.sequence)?;
+            let (workspace, in_time) = (folder.workspace(identity, &task.names)?, task.in_time());
             let of = task.scans().div_ceil(scans.get());
-            stretches.extend((0..of).map(|number| Stretch {
+            let parts = (0..of).map(|number| Stretch {
                 sequence: identity.name.clone(),
                 number,
                 of,
                 fingerprint: identity.fingerprint.clone(),
-            }));
+            });
+            let is_done = |part: &Stretch| part.scans(&in_time).iter().all(|scan| workspace.holds(*scan));
+            stretches.extend(parts.filter(|part| !is_done(part)));
         }
         Ok(Planned { stretches, earlier: folder.earlier().clone() })
     }

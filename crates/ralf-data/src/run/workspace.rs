@@ -62,6 +62,11 @@ impl<'a> Workspace<'a> {
         (is_long && files::read(&file).is_ok_and(|found| found == labels)).then_some(notes)
     }
 
+    /// Whether a scan was labelled before; whether that is whole is not looked at.
+    pub(super) fn holds(&self, scan: ScanIndex) -> bool {
+        self.log.rows(scan).is_some()
+    }
+
     /// How many detections a scan has that was labelled.
     pub(super) fn rows(&self, scan: ScanIndex) -> usize {
         self.log.rows(scan).unwrap_or_default()

@@ -56,8 +56,11 @@ fn settings_that_somebody_writes_meanwhile_are_not_overwritten() {
 fn a_recording_is_never_written_through_a_link() {
     let (folder, path) = sequence();
     let reader = LayoutSequence::open(&path).unwrap();
+    // What browsers call what they have not downloaded yet is somebody's own.
+    let own = folder.path().join("street.mcap.part");
+    fs::write(&own, "mine").unwrap();
     let [file, part, victim] =
-        ["street.mcap", "street.mcap.part", "victim"].map(|name| folder.path().join(name));
+        ["street.mcap", ".street.mcap.part", "victim"].map(|name| folder.path().join(name));
     fs::write(&victim, "mine").unwrap();
     std::os::unix::fs::symlink(&victim, &part).unwrap();
     write_ros(&reader, &file, RosFormat::Mcap, &|_| {}).unwrap();
@@ -68,7 +71,8 @@ fn a_recording_is_never_written_through_a_link() {
     fs::write(&part, vec![7; 2 * written.len()]).unwrap();
     write_ros(&reader, &file, RosFormat::Mcap, &|_| {}).unwrap();
     assert!(fs::read(&file).unwrap() == written);
-    assert_eq!(names(folder.path()), ["street.mcap", "street.toml", "victim"]);
+    assert_eq!(names(folder.path()), ["street.mcap", "street.mcap.part", "street.toml", "victim"]);
+    assert_eq!(fs::read(&own).unwrap(), b"mine");
 }
 
 #[test]

@@ -145,7 +145,7 @@ def jobs_of(
     # The letters of a path are no recordings.
     given = [recordings] if isinstance(recordings, str | bytes | os.PathLike) else recordings
     places = [utf8(recording, "recordings") for recording in given]
-    return [
+    asked = [
         job(
             recording,
             folder,
@@ -159,6 +159,9 @@ def jobs_of(
         )
         for recording, folder in zip(places, _ralf.folders(places, utf8(out, "out")), strict=True)
     ]
+    if len(asked) > 1 and any(one.settings.get("motion", {}).get("trajectory") for one in asked):
+        raise ValueError(f"motion.trajectory: expected one recording, whose motion it tells, found {len(asked)}")
+    return asked
 
 
 def label_one(task: str, *, jobs: int | None = 1, progress: Progress = None) -> list[dict[str, Any]]:
