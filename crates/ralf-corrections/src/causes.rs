@@ -4,8 +4,9 @@
 //! that is taken back, what the one before it said is there again. Who confirms a label leaves its cause. So nothing
 //! else is kept of it, and a program that knows no causes reads and writes the same store.
 
+use crate::settled::SETTLE;
 use rusqlite::{Connection, params};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The causes that strokes have said. A store of a program that knew none gets it when it is opened for writing.
 const TABLE: &str = "CREATE TABLE IF NOT EXISTS stroke_cause (
@@ -27,20 +28,42 @@ pub(crate) fn say(on: &Connection, stroke: i64, cause: &str) -> rusqlite::Result
 
 /// The cause of each detection of a scan that has one, ascending.
 pub(crate) fn causes(on: &Connection, scan: i64) -> rusqlite::Result<Vec<(u32, String)>> {
+    last_causes(on, scan, |_, _| true)
+}
+
+/// The same before each was settled for the first time.
+pub(crate) fn causes_before_settling(on: &Connection, scan: i64) -> rusqlite::Result<Vec<(u32, String)>> {
+    let mut settled = BTreeSet::new();
+    last_causes(on, scan, |point, tool| {
+        if tool == SETTLE {
+            settled.insert(point);
+        }
+        !settled.contains(&point)
+    })
+}
+
+/// The last cause of each detection, by the strokes that count of it: the detection and the stroke's tool tell.
+fn last_causes(
+    on: &Connection,
+    scan: i64,
+    mut counts: impl FnMut(u32, &str) -> bool,
+) -> rusqlite::Result<Vec<(u32, String)>> {
     if !any(on)? {
         return Ok(Vec::new());
     }
     let mut query = on.prepare_cached(
-        "SELECT point, cause, before IS after FROM change JOIN stroke ON stroke.id = change.stroke
+        "SELECT point, cause, before IS after, tool FROM change JOIN stroke ON stroke.id = change.stroke
          LEFT JOIN stroke_cause ON stroke_cause.stroke = stroke.id
          WHERE scan = ? AND applied IS NOT NULL ORDER BY applied, stroke.id",
     )?;
     let mut last = BTreeMap::new();
-    let rows =
-        query.query_map([scan], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?, row.get(2)?)))?;
-    for row in rows {
-        let (point, cause, says_the_same): (u32, _, bool) = row?;
-        match cause {
+    let mut rows = query.query([scan])?;
+    while let Some(row) = rows.next()? {
+        let (point, says_the_same): (u32, bool) = (row.get(0)?, row.get(2)?);
+        if !counts(point, row.get_ref(3)?.as_str()?) {
+            continue;
+        }
+        match row.get::<_, Option<String>>(1)? {
             Some(cause) => drop(last.insert(point, cause)),
             None if says_the_same => (),
             None => drop(last.remove(&point)),
@@ -58,7 +81,9 @@ pub(crate) fn any(on: &Connection) -> rusqlite::Result<bool> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer};
+    use crate::{
+        Reader, SETTLE, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer,
+    };
     use proptest::prelude::*;
     use std::collections::{BTreeMap, BTreeSet};
 
@@ -79,6 +104,20 @@ mod tests {
 
     fn open(folder: &tempfile::TempDir) -> Store {
         Store::open(&folder.path().join("corrections.sqlite")).unwrap()
+    }
+
+    #[test]
+    fn what_was_said_before_it_was_settled_is_told_for_ever() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = open(&folder);
+        for (tool, cause) in [("rule", "ground"), (SETTLE, "noise"), ("rule", "mirror")] {
+            let made = stroke(&store, vec![1], Some(99), Some(cause));
+            store.apply(&Stroke { tool: tool.into(), ..made }, &Who::named("ada")).unwrap();
+        }
+        let all = read_layer(&folder.path().join("corrections.sqlite")).unwrap();
+        let [layer] = all.values().next().unwrap().as_slice() else { unreachable!() };
+        assert_eq!(layer.causes, [(1, "mirror".to_owned())]);
+        assert_eq!(layer.before_settling().causes, [(1, "ground".to_owned())]);
     }
 
     #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! All that is said, at one moment: what evaluating and exporting read.
 
-use crate::causes::causes;
+use crate::causes::{causes, causes_before_settling};
 use crate::content::ScanContent;
 use crate::error::{StoreError, told};
 use crate::model::ScanKey;
@@ -24,6 +24,8 @@ pub struct ScanLayer {
     pub accepted: Option<Vec<u16>>,
     /// Detections that were settled, ascending, with the correction that each had before.
     pub settled: Vec<(u32, Option<u16>)>,
+    /// Causes as they were before each detection was settled, ascending.
+    pub causes_before: Vec<(u32, String)>,
 }
 
 impl ScanLayer {
@@ -33,8 +35,7 @@ impl ScanLayer {
         content.find_in(&contents).map(|at| &said[at])
     }
 
-    /// What was said before anybody settled anything: the corrections of those who saw nobody else's. The causes of
-    /// detections that were settled are not told.
+    /// What was said before anybody settled anything: the corrections and causes of those who saw nobody else's.
     pub fn before_settling(&self) -> Self {
         let mut corrections: BTreeMap<u32, u16> = self.corrections.iter().copied().collect();
         for (point, before) in &self.settled {
@@ -43,10 +44,7 @@ impl ScanLayer {
                 None => drop(corrections.remove(point)),
             }
         }
-        let mut causes = self.causes.clone();
-        causes
-            .retain(|(point, _)| self.settled.binary_search_by_key(point, |(settled, _)| *settled).is_err());
-        let corrections = corrections.into_iter().collect();
+        let (corrections, causes) = (corrections.into_iter().collect(), self.causes_before.clone());
         Self { corrections, causes, settled: Vec::new(), ..self.clone() }
     }
 
@@ -101,7 +99,8 @@ fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
             let (corrections, causes, review) = (corrections(on, id)?, causes(on, id)?, review(on, id)?);
             let accepted = review.map(|mark| mark.accepted);
             let settled = settled.remove(&id).unwrap_or_default().into_iter().collect();
-            Ok((key, ScanLayer { content, corrections, causes, accepted, settled }))
+            let causes_before = causes_before_settling(on, id)?;
+            Ok((key, ScanLayer { content, corrections, causes, accepted, settled, causes_before }))
         })
         .collect()
 }

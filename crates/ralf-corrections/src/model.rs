@@ -27,7 +27,7 @@ pub struct Who {
     pub author: String,
     /// What others read of the person.
     pub name: String,
-    /// Whether that is the person's own word: a name that nobody said takes the place of none that was said.
+    /// Whether the person said so. A name that it didn't say counts until it says one, and never in place of another.
     pub is_named: bool,
     /// The window it works in: its own edits are no news to it.
     pub tab: Option<String>,

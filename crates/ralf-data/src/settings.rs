@@ -7,7 +7,7 @@ use crate::read::{MotionSettings, Recording, SensorCorrection, corrected, idle};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 use toml::{Table, Value};
 
 /// Tables that readers of recordings know, and the method does not.
@@ -83,8 +83,7 @@ impl Settings {
     /// The same, with paths that lead to the same files from every folder.
     pub(crate) fn anywhere(&self) -> Self {
         let mut settings = self.clone();
-        let found = |file: &Path| file.canonicalize().unwrap_or_else(|_| files::whole(file));
-        settings.motion.trajectory = self.motion.trajectory.as_deref().map(found);
+        settings.motion.trajectory = self.motion.trajectory.as_deref().map(plain);
         settings
     }
 
@@ -109,6 +108,22 @@ impl Settings {
     pub fn to_toml(&self) -> Result<String, ConfigError> {
         toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))
     }
+}
+
+/// A path that leads to the same file from every folder, the same wherever it was typed: without `..`, unless these go
+/// through links. Links stay, for they may lead elsewhere on other machines.
+fn plain(file: &Path) -> PathBuf {
+    let whole = files::whole(file);
+    let mut plain = PathBuf::new();
+    for part in whole.components() {
+        match part {
+            Component::ParentDir => drop(plain.pop()),
+            part => plain.push(part),
+        }
+    }
+    let is_same =
+        matches!((plain.canonicalize(), whole.canonicalize()), (Ok(one), Ok(other)) if one == other);
+    if is_same { plain } else { whole }
 }
 
 impl TryFrom<Table> for Settings {
@@ -200,6 +215,22 @@ mod tests {
         assert_eq!(settings.topics["odom"].topic, "/wheels");
         assert_eq!(Settings::joined(&[BOTH.to_owned()]).unwrap(), BOTH);
         assert_eq!(Settings::joined(&[]).unwrap(), "");
+    }
+
+    #[test]
+    fn a_trajectory_is_the_same_from_wherever_it_was_typed() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("poses.tum");
+        std::fs::write(&file, "").unwrap();
+        std::fs::create_dir(folder.path().join("sub")).unwrap();
+        let typed = |path: &str| {
+            let mut settings = Settings::default();
+            settings.motion.trajectory = Some(folder.path().join(path));
+            settings.anywhere().motion.trajectory.unwrap()
+        };
+        assert_eq!(typed("sub/../poses.tum"), file);
+        assert_eq!(typed("sub/.././poses.tum"), file);
+        assert!(typed("gone/../nothing.tum").ends_with("gone/../nothing.tum"));
     }
 
     #[test]

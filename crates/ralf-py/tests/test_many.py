@@ -79,6 +79,18 @@ def test_two_recordings_of_one_name_are_refused(drive, tmp_path):
         ralf.plan([drive, drive], tmp_path)
 
 
+def test_a_trajectory_of_several_recordings_and_a_place_among_measurements_are_refused(drive, tmp_path):
+    other = tmp_path / "other"
+    shutil.copytree(drive, other)
+    before = tree(other)
+    with pytest.raises(ValueError, match=r"motion\.trajectory: expected one recording, .* found 2"):
+        ralf.plan([drive, other], tmp_path / "out", settings={"motion.trajectory": "poses.tum"})
+    with pytest.raises(ralf.RalfError, match="output"):
+        ralf.plan([drive], other / "sequences")
+    assert not (tmp_path / "out").exists()
+    assert tree(other) == before
+
+
 def test_a_task_of_another_plan_is_refused(drive, tmp_path):
     task = ralf.plan([drive], tmp_path / "a")[0]
     shutil.rmtree(tmp_path / "a")

@@ -13,6 +13,7 @@ use ralf_data::judge::Certainty;
 use ralf_data::result::{LabelledRun, LabelledSequence, RunRecord};
 use ralf_data::{Balance, Causes, Comparison, DataError, SequenceReader};
 use ralf_plot::Extent;
+use std::collections::BTreeSet;
 
 /// Widths of the pictures, pixels: an overview's half, a scan.
 const WIDTHS: [u32; 2] = [760, 760];
@@ -102,7 +103,7 @@ impl Content {
             return Err(DataError::content(report.out, place, "labels of the recording", found).into());
         }
         let mut record = run.record().clone();
-        record.sequences.retain(|sequence| names.contains(&sequence.name.as_str()));
+        record.retain(|sequence| names.contains(&sequence.name.as_str()));
         let truth = Truth::gather(report, &names)?;
         let comparison = truth.comparison(report)?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
@@ -206,9 +207,14 @@ impl DrawnSequence {
     ) -> Result<Self, ReportError> {
         let pictures = Pictures { reader, tables: &labelled.tables, radar: None, extent: Extent::Fit };
         let sequence = reader.sequence();
+        let radar = first_radar(reader);
+        // One without labels would look as if it held no detections.
+        let not_labelled = labelled.record.not_labelled.iter().filter(|scan| scan.radar == radar);
+        let not_labelled: BTreeSet<usize> = not_labelled.map(|scan| scan.scan).collect();
         let count = sequence.times.radars.first().map_or(0, Vec::len);
+        let with_labels: Vec<usize> = (0..count).filter(|scan| !not_labelled.contains(scan)).collect();
         let mut scans = Vec::new();
-        for (scan, uncertain) in choose(count, wanted, uncertain) {
+        for (scan, uncertain) in choose(&with_labels, wanted, uncertain) {
             let raw = pictures.scan(scan, Detections::Raw, WIDTHS[1])?;
             let pictures = [raw, pictures.scan(scan, Detections::Labelled, WIDTHS[1])?];
             scans.push(ScanContent { scan, uncertain, pictures });
@@ -217,7 +223,7 @@ impl DrawnSequence {
             name: sequence.name.clone(),
             title: sequence.title.clone(),
             overview: pictures.overview(WIDTHS[0])?,
-            radar: first_radar(reader),
+            radar,
             scans,
         })
     }
@@ -248,12 +254,13 @@ fn evenly(count: usize, wanted: usize) -> Vec<usize> {
 }
 
 /// Some scans of so many, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
-fn choose(count: usize, wanted: usize, uncertain_first: &[usize]) -> Vec<(usize, bool)> {
-    let wanted = wanted.min(count);
+fn choose(scans: &[usize], wanted: usize, uncertain_first: &[usize]) -> Vec<(usize, bool)> {
+    let wanted = wanted.min(scans.len());
     let even = wanted - (wanted / UNCERTAIN).min(uncertain_first.len());
-    let mut chosen: Vec<(usize, bool)> = evenly(count, even).into_iter().map(|scan| (scan, false)).collect();
+    let spread = evenly(scans.len(), even).into_iter().map(|place| (scans[place], false));
+    let mut chosen: Vec<(usize, bool)> = spread.collect();
     // Where uncertain ones are among the others already, the next ones stand in.
-    let others = (0..count).map(|scan| (scan, false));
+    let others = scans.iter().map(|scan| (*scan, false));
     for (scan, uncertain) in uncertain_first.iter().map(|scan| (*scan, true)).chain(others) {
         if chosen.len() < wanted && chosen.iter().all(|(known, _)| *known != scan) {
             chosen.push((scan, uncertain));
@@ -270,12 +277,16 @@ mod tests {
 
     #[test]
     fn scans_are_spread_and_the_uncertain_among_them() {
-        let chosen = choose(100, 6, &[99, 41, 7, 3]);
+        let choose = |scans: std::ops::Range<usize>, wanted, uncertain: &[usize]| {
+            super::choose(&scans.collect::<Vec<_>>(), wanted, uncertain)
+        };
+        let chosen = choose(0..100, 6, &[99, 41, 7, 3]);
         assert_eq!(chosen, [(0, false), (7, true), (33, false), (41, true), (66, false), (99, false)]);
-        assert_eq!(choose(2, 6, &[1, 0]), [(0, false), (1, false)]);
-        assert_eq!(choose(5, 1, &[]), [(0, false)]);
-        assert_eq!(choose(0, 6, &[]), []);
-        assert_eq!(choose(9, 0, &[4]), []);
+        assert_eq!(choose(0..2, 6, &[1, 0]), [(0, false), (1, false)]);
+        assert_eq!(choose(0..5, 1, &[]), [(0, false)]);
+        assert_eq!(choose(0..0, 6, &[]), []);
+        assert_eq!(choose(0..9, 0, &[4]), []);
+        assert_eq!(super::choose(&[2, 5], 6, &[5]), [(2, false), (5, false)], "the others have no labels");
     }
 
     #[test]

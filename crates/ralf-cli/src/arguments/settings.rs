@@ -82,6 +82,18 @@ impl SettingsArgs {
     }
 }
 
+/// Refuses a trajectory of other than one recording: it is the motion of one, and times may be those of others, too.
+pub(crate) fn check_trajectory(settings: &Settings, recordings: usize) -> Result<(), UsageError> {
+    let found = match recordings {
+        _ if settings.motion.trajectory.is_none() => return Ok(()),
+        0 => "simulated worlds alone".to_owned(),
+        1 => return Ok(()),
+        several => several.to_string(),
+    };
+    let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
+    Err(UsageError(format!("{expected}, found {found}")))
+}
+
 /// The table `topics` of a settings file, which has to be there.
 pub(super) fn topics(file: &Path) -> anyhow::Result<Topics> {
     let topics = parsed(file, &text(file)?)?.topics;

@@ -1,7 +1,7 @@
 //! `ralf cluster`: many recordings on many machines, by three steps that anything can start.
 
-use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
-use crate::outcome::{Outcome, UsageError, say_left_out};
+use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, check_trajectory, threads};
+use crate::outcome::{Outcome, say_left_out};
 use crate::progress::{Stages, say};
 use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_gone, say_lacking};
 use crate::text::{grouped, in_a_line, print};
@@ -127,10 +127,7 @@ pub(crate) fn run(arguments: &ClusterArgs) -> anyhow::Result<Outcome> {
 fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     arguments.method.apply(&mut settings.method, &arguments.settings)?;
-    if settings.motion.trajectory.is_some() && arguments.recordings.len() > 1 {
-        let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
-        return Err(UsageError(format!("{expected}, found {}", arguments.recordings.len())).into());
-    }
+    check_trajectory(&settings, arguments.recordings.len())?;
     let (mut planned, mut outcome) = (Vec::new(), Outcome::Done);
     let folders = many::folders(&arguments.recordings, &arguments.output)?;
     for (recording, out) in arguments.recordings.iter().zip(&folders) {

@@ -151,8 +151,7 @@ fn inspect_run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         );
     }
     if !asked.is_empty() {
-        record.sequences.retain(|sequence| asked.contains(&sequence.name));
-        record.inputs.retain(|input| asked.contains(&input.sequence));
+        record.retain(|sequence| asked.contains(&sequence.name));
     }
     if arguments.json {
         print(&serde_json::to_string_pretty(&record)?)?;

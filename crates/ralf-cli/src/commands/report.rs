@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     say_without("labels", &page.without_labels);
     let mut record = LabelledRun::open(&arguments.labels)?.record().clone();
     let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);
-    record.sequences.retain(|labelled| is_shown(&labelled.name));
+    record.retain(|labelled| is_shown(&labelled.name));
     let outcome = outcome.and(say_not_labelled(&record));
     Ok(outcome.and(Outcome::done_if(page.without_labels.is_empty())))
 }

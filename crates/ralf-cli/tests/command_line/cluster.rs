@@ -50,6 +50,11 @@ fn a_place_among_measurements_and_a_trajectory_of_several_recordings_are_refused
         ralf(["cluster", "plan", "-q", &dataset.path, "-o", &place]).exits(1).ends_with_error([&place]);
         assert!(tree(&other) == before, "{place}");
     }
+    ralf(["label", "-q", &dataset.path, "-o", &dataset.out]).exits(0);
+    let labels = tree(&dataset.out);
+    let plan = ["cluster", "plan", "-q", &other, "-o", &dataset.out];
+    ralf(plan).exits(1).ends_with_error([&dataset.out, "found results of one"]);
+    assert!(tree(&dataset.out) == labels);
     let poses = dataset.beside("poses.tum");
     fs::write(&poses, "1700000000.0 0 0 0 0 0 0 1\n1700000001.0 8 0 0 0 0 0 1\n").unwrap();
     let plan = ["cluster", "plan", "-q", &dataset.path, &other, "-o", &out, "--trajectory", &poses];

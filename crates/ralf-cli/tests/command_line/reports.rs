@@ -37,6 +37,8 @@ fn sequences_without_truth_are_named() {
     assert!(html.contains("Sequences without truth") && html.contains("<li>01</li>"));
     let chosen = ralf(["report", &dataset.path, &dataset.out, "-o", &page, "--sequence", "00"]).exits(0);
     assert!(!chosen.stderr.contains("has no truth"), "{}", chosen.stderr);
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(!html.contains("for want of corrected labels"), "the other one is no part of the page");
     ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0).says([told]);
     ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).says([told]);
 }

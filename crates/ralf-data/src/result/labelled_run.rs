@@ -80,6 +80,10 @@ fn with_altered_values(run: &LabelledRun, recording: Recording) -> Result<Record
     }
 }
 
+fn is_store(folder: &Path) -> bool {
+    folder.join(DEPTH).with_extension("toml").is_file()
+}
+
 /// A file that isn't what was labelled.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ChangedInput {
@@ -145,6 +149,15 @@ impl LabelledRun {
     /// The folders of depth images that sequences were labelled with, apart from a recording's own; of those that are
     /// still there.
     pub fn depth_stores(&self, recording: &Path) -> Vec<PathBuf> {
+        self.depth_folders(recording).into_iter().filter(|root| is_store(root)).collect()
+    }
+
+    /// Those that are there no more.
+    pub fn lost_depth_stores(&self, recording: &Path) -> Vec<PathBuf> {
+        self.depth_folders(recording).into_iter().filter(|root| !is_store(root)).collect()
+    }
+
+    fn depth_folders(&self, recording: &Path) -> BTreeSet<PathBuf> {
         // STORE/sequences/NAME/CAMERA/depth/000000.npy
         let root = |file: &str| {
             let file = Path::new(file);
@@ -152,11 +165,8 @@ impl LabelledRun {
                 file.parent()?.file_name()? == DEPTH && file.ancestors().nth(4)?.ends_with(SEQUENCES);
             file.ancestors().nth(5).filter(|_| is_depth).map(|root| recording.join(root))
         };
-        let roots: BTreeSet<PathBuf> =
-            self.record.inputs.iter().filter_map(|input| root(&input.file)).collect();
-        let is_other =
-            |root: &PathBuf| *root != recording.join("") && root.join(DEPTH).with_extension("toml").is_file();
-        roots.into_iter().filter(is_other).collect()
+        let roots = self.record.inputs.iter().filter_map(|input| root(&input.file));
+        roots.filter(|root| *root != recording.join("")).collect()
     }
 
     /// The files of a recording that are not what was labelled, in the order of their names; of the sequences that were

@@ -154,8 +154,8 @@ impl RunRecord {
         self.check.sort_by(|a, b| a.sequence.cmp(&b.sequence));
     }
 
-    /// Keeps sequences, with their inputs.
-    pub(crate) fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
+    /// Keeps sequences, with their inputs and what the check said of them.
+    pub fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
         self.sequences.retain(names);
         let left: BTreeSet<&str> = self.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
         self.inputs.retain(|input| left.contains(input.sequence.as_str()));

@@ -5,7 +5,7 @@ use crate::error::DataError;
 use crate::read::open::recognised;
 use crate::read::{layout, refuse_own_places, refuse_to_write_into, ros};
 use crate::result::{OutFolder, is_under_way};
-use crate::tree::{LABELS, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
+use crate::tree::{LABELS, PLAN, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::fs;
@@ -29,13 +29,17 @@ pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError
     refuse_other_record(out, &record)
 }
 
-/// Refuses a folder for the folders of many recordings' results that is a recording itself, or lies in one or among
-/// results.
+/// Refuses a folder for the folders of many recordings' results that is a recording or holds one's results itself, or
+/// lies in one or among results.
 ///
 /// # Errors
 /// Such a place.
 pub(crate) fn check_folder_of_many(out: &Path) -> Result<(), DataError> {
     refuse_own_places(out)?;
+    if files::exists(&out.join(PLAN))? || files::exists(&out.join(RECORD))? || is_under_way(out)? {
+        let expected = "a folder for those of recordings, or nothing yet";
+        return Err(DataError::content(out, "output", expected, "results of one"));
+    }
     refuse_recording(out)
 }
 

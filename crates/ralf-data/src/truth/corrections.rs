@@ -346,6 +346,18 @@ mod tests {
     }
 
     #[test]
+    fn a_store_is_about_the_labels_of_the_folder_that_it_lies_in() {
+        let out = tempfile::tempdir().unwrap();
+        store(out.path());
+        let second = out.path().join("second/bob.sqlite");
+        std::fs::create_dir(second.parent().unwrap()).unwrap();
+        std::fs::copy(out.path().join(FILE), &second).unwrap();
+        for place in [out.path(), &out.path().join(FILE), &second] {
+            assert_eq!(Corrections::labels_of(place), out.path());
+        }
+    }
+
+    #[test]
     fn truth_takes_the_correction_then_the_file_then_what_was_accepted() {
         let out = tempfile::tempdir().unwrap();
         let corrections = store(out.path());

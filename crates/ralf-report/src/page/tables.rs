@@ -22,13 +22,13 @@ pub(super) fn agreement(content: &Content) -> Markup {
             h2 { "Agreement with corrected labels" }
             @match &content.comparison {
                 None => p.absent { (NO_TRUTH) }
-                Some(comparison) => (compared(comparison))
+                Some(comparison) => (compared(comparison, &content.without_truth()))
             }
         }
     }
 }
 
-fn compared(comparison: &Comparison) -> Markup {
+fn compared(comparison: &Comparison, without_truth: &[String]) -> Markup {
     let evaluation = comparison.evaluation();
     let Scores { scan_mean, pooled } = &evaluation.overall;
     html! {
@@ -42,8 +42,8 @@ fn compared(comparison: &Comparison) -> Markup {
         (confusion(&pooled.counts))
         p.note { "Matthews’ correlation: " (decimal(pooled.rates.mcc)) " over all detections together, "
             (decimal(scan_mean.rates.mcc)) " as the mean over scans." }
-        @if !comparison.without_truth.is_empty() {
-            p.note { "Left out for want of corrected labels: sequences " (comparison.without_truth.join(", ")) "." }
+        @if !without_truth.is_empty() {
+            p.note { "Left out for want of corrected labels: sequences " (without_truth.join(", ")) "." }
         }
         @if !comparison.missing.is_empty() {
             p.note { "Left out for want of labels: " (comparison.missing.len()) " scans that have corrected ones." }

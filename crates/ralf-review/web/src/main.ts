@@ -1,7 +1,7 @@
 /** Starts the page: reads the recording, builds the views, opens the first scan. */
 
 import { actionsOn } from "./actions/actions.js";
-import { closed, firstAddress } from "./actions/starting.js";
+import { closed, firstAddress, nameAmong } from "./actions/starting.js";
 import { Api } from "./api/client.js";
 import { messageOf } from "./api/errors.js";
 import { openSession, randomName } from "./api/session.js";
@@ -46,6 +46,8 @@ async function start(): Promise<void> {
   const recording = await new Api(session, null).recording();
   session.serves(recording.store);
   const api = new Api(session, recording.store);
+  const known = session.name();
+  if (known !== null) session.rename(nameAmong(recording.people, known));
   const store = new Store(initialState(recording, recording.second ?? session.name() ?? recording.author));
   keepPreferences(store);
   deriveAlways(store);

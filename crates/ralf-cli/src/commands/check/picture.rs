@@ -1,6 +1,6 @@
 //! The picture of a check.
 
-use ralf_check::{RadarFigures, SequenceCheck};
+use ralf_check::{RadarFigures, SequenceCheck, Verdict};
 use ralf_plot::{CheckPicture, CheckRow, PlotError, check_picture};
 
 /// What a row shows, owned.
@@ -33,7 +33,9 @@ pub(crate) fn png(checks: &[SequenceCheck]) -> Result<Vec<u8>, PlotError> {
 
 fn row(check: &SequenceCheck, figures: &RadarFigures) -> Row {
     let own = check.doubts().filter(|verdict| verdict.subject == figures.name);
-    let says: Vec<String> = own.filter_map(|verdict| Some(verdict.remedy.as_ref()?.words())).collect();
+    let words =
+        |verdict: &Verdict| verdict.remedy.as_ref().map_or_else(|| verdict.evidence.clone(), |r| r.words());
+    let says: Vec<String> = own.map(words).collect();
     Row {
         name: format!("{} {}", check.name, figures.name),
         says: if says.is_empty() { "nothing speaks against it".into() } else { says.join("; ") },

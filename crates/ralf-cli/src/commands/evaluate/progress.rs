@@ -32,7 +32,7 @@ pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
 }
 
 fn table(worked: &[Worked]) -> String {
-    let head = ["", "day", "edits", "detections", "scans", "hours", "detections/h", "scans/h"];
+    let head = ["", "day (UTC)", "edits", "detections", "scans", "hours", "detections/h", "scans/h"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(worked.iter().map(row));
     aligned(&rows)

@@ -17,7 +17,7 @@ const ANEW: [&str; 7] =
     ["preset", "seeds", "scans", "every", "no_neighbours", "without_groups", "no_blanking"];
 
 /// Whether a model is corrected, which, and by what.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct CorrectArgs {
     /// Correct the shipped model, or --model, by what people corrected and accepted in the review of OUT; every DATASET
     /// is one that was reviewed there

@@ -1,8 +1,9 @@
 //! Recordings to learn from.
 
 use super::correct::CorrectArgs;
-use crate::arguments::{STORED_DEPTH, tell_left_out};
+use crate::arguments::{STORED_DEPTH, check_trajectory, tell_left_out};
 use crate::outcome::{Outcome, UsageError};
+use crate::progress::say;
 use crate::run_summary::{say_not_used, say_without};
 use crate::text::{shell_path, shell_word};
 use clap::Args;
@@ -33,14 +34,7 @@ pub(super) struct RecordingArgs {
 impl RecordingArgs {
     /// What can be told before anything is read.
     pub(super) fn check(&self, settings: &Settings) -> Result<(), UsageError> {
-        if settings.motion.trajectory.is_some() && self.datasets.len() != 1 {
-            let found = match self.datasets.len() {
-                0 => "simulated worlds alone".to_owned(),
-                several => several.to_string(),
-            };
-            let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
-            return Err(UsageError(format!("{expected}, found {found}")));
-        }
+        check_trajectory(settings, self.datasets.len())?;
         let places: BTreeSet<PathBuf> = self.datasets.iter().map(|dataset| whole(dataset)).collect();
         if places.len() < self.datasets.len() {
             return Err(UsageError("DATASET: expected each once, found one that is named twice".into()));
@@ -78,9 +72,16 @@ impl RecordingArgs {
             Some(run) => of.settings.correct_labelled(recording, |name| run.holds(name))?,
             None => of.settings.correct(recording)?,
         };
-        let stores = of.run.filter(|_| self.depth.is_none()).map(|run| run.depth_stores(&recording.path));
-        for store in stores.into_iter().flatten() {
-            recording = DepthStore::open(&store)?.attach(recording);
+        if let Some(run) = of.run.filter(|_| self.depth.is_none()) {
+            for store in run.lost_depth_stores(&recording.path) {
+                let place = store.display();
+                say(&format!(
+                    "warning: {place}: expected the depth that was labelled with, found none (--depth)"
+                ));
+            }
+            for store in run.depth_stores(&recording.path) {
+                recording = DepthStore::open(&store)?.attach(recording);
+            }
         }
         Ok(with_stored(recording, self.depth.as_deref(), None)?)
     }
@@ -92,15 +93,15 @@ impl RecordingArgs {
         if self.datasets.len() == 1 && !of.beside_simulated {
             return sequence.to_owned();
         }
-        let named = dataset.display();
         if of.correct.is_asked() {
-            return format!("{named}/{sequence}");
+            return format!("{}/{sequence}", dataset.display());
         }
         let name = last_name(dataset);
         let of_that_name = self.datasets.iter().filter(|other| last_name(other) == name).count();
         let is_family =
             of.beside_simulated && Worlds::all().any(|(family, _)| name == Some(family.to_owned()));
-        name.filter(|_| of_that_name == 1 && !is_family).unwrap_or_else(|| named.to_string())
+        let is_its_own = of_that_name == 1 && !is_family;
+        name.filter(|_| is_its_own).unwrap_or_else(|| whole(dataset).display().to_string())
     }
 
     /// As they were typed.
@@ -123,7 +124,8 @@ pub(super) struct Gathering<'a> {
 }
 
 fn whole(dataset: &Path) -> PathBuf {
-    dataset.canonicalize().unwrap_or_else(|_| dataset.to_owned())
+    let found = dataset.canonicalize().or_else(|_| std::path::absolute(dataset));
+    found.unwrap_or_else(|_| dataset.to_owned())
 }
 
 fn last_name(dataset: &Path) -> Option<String> {
@@ -135,4 +137,26 @@ fn name_without_truth(recording: &Recording, truth: &GroundTruth) {
     let names = recording.sequences.iter().map(|reader| &reader.sequence().name);
     let said = |name: &String| truth.scans().iter().any(|scan| scan.sequence == *name);
     say_without("truth", names.filter(|name| !said(name)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recordings_of_one_name_are_worlds_of_their_own() {
+        let settings = Settings::default();
+        let correct = CorrectArgs::default();
+        let worlds = |datasets: [&str; 2], beside_simulated| {
+            let of = Gathering { settings: &settings, correct: &correct, run: None, beside_simulated };
+            let datasets = datasets.map(PathBuf::from).to_vec();
+            let arguments = RecordingArgs { datasets, format: None, depth: None };
+            arguments.datasets.iter().map(|dataset| arguments.world(dataset, "00", &of)).collect::<Vec<_>>()
+        };
+        assert_eq!(worlds(["a/town", "b/quay"], false), ["town", "quay"]);
+        let both = worlds(["a/town", "b/town"], false);
+        assert!(both[0].ends_with("a/town") && both[1].ends_with("b/town"), "{both:?}");
+        let named = worlds(["a/town", "quay"], true);
+        assert!(named[0] == "town" && named[1] != "quay", "{named:?}");
+    }
 }

@@ -23,7 +23,7 @@ export class Hearing {
     private readonly queueing: Queueing,
     private readonly relabelling: Relabelling,
   ) {
-    // From the moment a sequence is chosen, before its scans are read: what others change meanwhile is heard of.
+    // From the moment a sequence is chosen, while its scans are read: what others change from then on is heard of.
     world.store.watch(
       ({ sequence }) => [sequence],
       (sequence) => (sequence === "" ? undefined : this.listen(sequence)),
@@ -81,11 +81,13 @@ export class Hearing {
     const { store } = this.world;
     if (store.state.link.kind === "fine") return;
     // First of all: while `ralf label` is at work the labels can't be read, and corrections can be written.
-    await this.correcting.retry();
+    if (store.state.outbox.kind === "gone") await this.correcting.retry();
     if (store.state.outbox.kind === "gone") return;
     await Promise.all([this.relabelling.read(), this.queueing.read(), this.readHistory(sequence)]);
     store.set({ link: { kind: "fine" } });
     await this.adopting.rereadAll();
+    // What was refused may be taken by now.
+    await this.correcting.retry();
   }
 
   /** What can be undone; read again where an own edit came between, whose answer may be the newer one. */

@@ -87,6 +87,7 @@ export class Opining {
       if (thing !== null || countOf(selection) > 0)
         return tell(this.world, "What would change is known, but you are at something: Shift+R shows it after that.");
       await this.navigation.wholeSequence(store.state.current ?? current);
+      if (sequence !== store.state.sequence) return;
       store.set({ ...NOTHING_LOOKED_AT, opinion });
       this.select();
     } finally {

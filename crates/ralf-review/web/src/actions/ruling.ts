@@ -43,7 +43,7 @@ export class Ruling {
   async choose(name: string): Promise<void> {
     const { store } = this.world;
     const rule = readRules().find((known) => known.name === name);
-    const { current } = store.state;
+    const { current, sequence } = store.state;
     if (rule === undefined || current === null) return;
     const elsewhere = rule.filter.areas.find((area) => !liesIn(area, homeOf(store.state)));
     if (elsewhere !== undefined)
@@ -53,6 +53,7 @@ export class Ruling {
       );
     try {
       await this.navigation.wholeSequence(current);
+      if (sequence !== store.state.sequence) return;
       store.set({ ...NOTHING_LOOKED_AT, filter: rule.filter, notice: null });
       this.selecting.all("rule");
       this.lookedIn.here();

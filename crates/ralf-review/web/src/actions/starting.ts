@@ -51,3 +51,8 @@ export function closed(store: Store<State>, dialog: Dialog): Promise<void> {
     );
   });
 }
+
+/** A person's name as others have it: names that differ by case alone are one person's. */
+export function nameAmong(people: readonly string[], name: string): string {
+  return people.find((known) => known.toLowerCase() === name.toLowerCase()) ?? name;
+}

@@ -5,6 +5,7 @@ import { everything, type Filter } from "../data/filter.js";
 import type { Point } from "../selection/geometry.js";
 import { type Dialog, type Drawer, homeOf, type ViewMode } from "../state.js";
 import { type ColourMode, colourModes } from "../viewer/colours.js";
+import { nameAmong } from "./starting.js";
 import { tell, type World } from "./world.js";
 
 const LONGEST_NAME = 64;
@@ -131,8 +132,7 @@ export class Viewing {
     const given = typed.trim().slice(0, LONGEST_NAME);
     if (given === "") return;
     const { people } = this.world.store.state.recording;
-    // Names that differ by case alone are one person's.
-    const name = people.find((known) => known.toLowerCase() === given.toLowerCase()) ?? given;
+    const name = nameAmong(people, given);
     if (people.length > 0 && !people.includes(name))
       tell(this.world, `Nothing was dealt to ${name}: team.toml knows ${people.join(", ")}.`);
     this.world.session.rename(name);

@@ -207,15 +207,16 @@ export class Api {
 
   /** The answer to one of the tokens, or else to the last. */
   private async asked(path: string, request: RequestInit, headers: Headers): Promise<Response> {
-    const [first, ...others] = this.session.tokens();
-    if (first !== undefined) headers.set("Authorization", `Bearer ${first}`);
-    let answer = await received(fetch(`/api/${path}`, request));
-    for (const token of others) {
-      if (answer.status !== 401) break;
+    const tokens = this.session.tokens();
+    for (const [i, token] of tokens.entries()) {
       headers.set("Authorization", `Bearer ${token}`);
-      answer = await received(fetch(`/api/${path}`, request));
+      const answer = await received(fetch(`/api/${path}`, request));
+      if (answer.status === 401 && i + 1 < tokens.length) continue;
+      // Of other corrections (412) it is the token of whoever serves those.
+      if (![401, 412].includes(answer.status)) this.session.accepts(token);
+      return answer;
     }
-    return answer;
+    return received(fetch(`/api/${path}`, request));
   }
 }
 

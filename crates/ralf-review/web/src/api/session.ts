@@ -8,7 +8,9 @@ const TEN_YEARS_S = 315_360_000;
 export interface Session {
   /** Those that may be the server's: of these corrections, and of the newest page in this browser. */
   tokens(): readonly string[];
-  /** These corrections are served by whoever knows the token: it stays theirs when others are served here. */
+  /** The server has taken this one. */
+  accepts(token: string): void;
+  /** These corrections are served: the token that was taken stays theirs when others are served here. */
   serves(store: string): void;
   /** The window, by which the server leaves out its own changes. */
   readonly tab: string;
@@ -28,22 +30,32 @@ export function openSession(): Session {
     address.searchParams.delete("token");
     history.replaceState(null, "", address);
   }
-  let own = TOKEN;
+  let own: string | null = null;
+  let accepted: string | null = null;
   return {
     tokens: () => {
-      const known = [own, TOKEN].map((name) => localStorage.getItem(name)).filter((token) => token !== null);
+      const names = own === null ? [TOKEN, ...tokenNames()] : [own, TOKEN];
+      const known = names.map((name) => localStorage.getItem(name)).filter((token) => token !== null);
       return [...new Set(known)];
+    },
+    accepts: (token) => {
+      accepted = token;
+      if (own !== null && localStorage.getItem(own) !== token) localStorage.setItem(own, token);
     },
     serves: (store) => {
       own = `${TOKEN} ${store}`;
-      const token = localStorage.getItem(TOKEN);
-      if (token !== null) localStorage.setItem(own, token);
+      if (accepted !== null) localStorage.setItem(own, accepted);
     },
     tab: randomName(),
     author: knownAuthor(),
     name: () => localStorage.getItem(NAME),
     rename: (name) => localStorage.setItem(NAME, name),
   };
+}
+
+/** Under which names tokens of corrections are kept that were served here. */
+function tokenNames(): readonly string[] {
+  return Object.keys(localStorage).filter((name) => name.startsWith(`${TOKEN} `));
 }
 
 /**

@@ -162,7 +162,7 @@ type Pressed = Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shi
 
 /** What a key writes; where that is a letter of another script, the letter that lies there on a Latin keyboard. */
 function latin({ key, code }: Pressed): string {
-  const isOther = key.length === 1 && /\p{Letter}/u.test(key) && !/[a-z]/i.test(key);
+  const isOther = key.length === 1 && /\p{Letter}/u.test(key) && !/\p{Script=Latin}/u.test(key);
   return (isOther ? /^Key([A-Z])$/.exec(code)?.[1] : undefined) ?? key;
 }
 

@@ -125,6 +125,7 @@ test("keys have one name each, with or without their shift", () => {
   assert.equal(keyName({ ...event, key: "я", ctrlKey: true }), "ctrl+z", "where the letter lies on a Russian keyboard");
   assert.equal(keyName({ ...event, key: "y" }), "y", "Latin letters count as they are printed");
   assert.equal(keyName({ ...event, key: "х", code: "BracketLeft" }), "х");
+  assert.equal(keyName({ ...event, key: "é", code: "KeyW" }), "é", "a Latin letter is printed on its own key");
   assert.deepEqual(shownKey("ctrl+shift+z"), ["Ctrl", "Shift", "Z"]);
   assert.deepEqual(shownKey("+"), ["+"]);
 });

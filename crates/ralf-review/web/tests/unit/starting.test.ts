@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { closed, firstAddress } from "../../src/actions/starting.js";
+import { closed, firstAddress, nameAmong } from "../../src/actions/starting.js";
 import type { Progress } from "../../src/api/types.js";
 import { initialState } from "../../src/state.js";
 import { Store } from "../../src/store.js";
@@ -53,4 +53,11 @@ test("what waits for a dialog goes on once it is closed, whatever was said", asy
   store.set({ dialog: "none" });
   await waiting;
   assert.equal(opened, true);
+});
+
+test("names that differ by case alone are one person's", () => {
+  assert.deepEqual(
+    ["Ada", "ada", "Zoë"].map((name) => nameAmong(["ada", "bob"], name)),
+    ["ada", "ada", "Zoë"],
+  );
 });
