@@ -58,6 +58,11 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// In a few words: what is wrong and what to do, where that is known; else what was found.
+    pub fn says(&self) -> String {
+        self.remedy.as_ref().map_or_else(|| self.evidence.clone(), Remedy::words)
+    }
+
     pub(crate) fn new(subject: &str, question: Question, state: State, evidence: String) -> Self {
         Self { subject: subject.to_owned(), question, state, evidence, remedy: None }
     }

@@ -98,8 +98,9 @@ fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
             let (id, key, content) = scan?;
             let (corrections, causes, review) = (corrections(on, id)?, causes(on, id)?, review(on, id)?);
             let accepted = review.map(|mark| mark.accepted);
-            let settled = settled.remove(&id).unwrap_or_default().into_iter().collect();
-            let causes_before = causes_before_settling(on, id)?;
+            let settled: Vec<_> = settled.remove(&id).unwrap_or_default().into_iter().collect();
+            let is_settled = !settled.is_empty();
+            let causes_before = if is_settled { causes_before_settling(on, id)? } else { causes.clone() };
             Ok((key, ScanLayer { content, corrections, causes, accepted, settled, causes_before }))
         })
         .collect()

@@ -253,7 +253,7 @@ fn evenly(count: usize, wanted: usize) -> Vec<usize> {
     (0..wanted).map(|i| i * (count - 1) / wanted.saturating_sub(1).max(1)).collect()
 }
 
-/// Some scans of so many, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
+/// Some of these scans, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
 fn choose(scans: &[usize], wanted: usize, uncertain_first: &[usize]) -> Vec<(usize, bool)> {
     let wanted = wanted.min(scans.len());
     let even = wanted - (wanted / UNCERTAIN).min(uncertain_first.len());

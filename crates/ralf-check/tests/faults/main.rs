@@ -69,14 +69,12 @@ fn judge(base: &Arc<Recording>, fault: &Fault) -> Row {
 }
 
 fn told(found: &SequenceCheck) -> String {
-    let words =
-        |verdict: &Verdict| verdict.remedy.as_ref().map_or_else(|| verdict.evidence.clone(), |r| r.words());
     let speaks = |v: &&Verdict| matches!(v.state, State::Doubt | State::Fact);
     found
         .verdicts
         .iter()
         .filter(speaks)
-        .map(|v| format!("{}: {}", v.subject, words(v)))
+        .map(|v| format!("{}: {}", v.subject, v.says()))
         .collect::<Vec<_>>()
         .join("; ")
 }

@@ -142,8 +142,7 @@ fn inspect_run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     arguments.refuse_of_recordings()?;
     let mut record = read_record(out)?;
     let asked = &arguments.dataset.sequences;
-    let holds = |name: &str| record.sequences.iter().any(|sequence| sequence.name == name);
-    if let Some(unknown) = asked.iter().find(|name| !holds(name)) {
+    if let Some(unknown) = asked.iter().find(|name| record.sequence(name).is_none()) {
         let known: Vec<&str> = record.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
         let (place, known) = (out.display(), listed(&known, SHOWN));
         return Err(

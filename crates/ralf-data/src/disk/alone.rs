@@ -13,7 +13,7 @@ pub(crate) fn open_alone(path: &Path) -> Result<File, Error> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => open_existing(path)?,
             opened => opened?,
         };
-        open.lock().or_else(|error| if lacks_locks(&error) { Ok(()) } else { Err(error) })?;
+        unless(lacks_locks, open.lock())?;
         // The one before may have put it in its place meanwhile, or removed it.
         if is_at(&open, path) {
             // Emptying one that is empty would cost as much as writing it.
@@ -34,7 +34,7 @@ pub(crate) fn alone<T>(path: &Path, work: impl FnOnce() -> T) -> Result<T, Error
 
 fn open_existing(path: &Path) -> Result<File, Error> {
     if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
-        unless(ErrorKind::NotFound, fs::remove_file(path))?;
+        unless(|error| error.kind() == ErrorKind::NotFound, fs::remove_file(path))?;
     }
     options().create(true).truncate(false).open(path)
 }
@@ -55,8 +55,8 @@ pub(crate) fn lacks_locks(error: &Error) -> bool {
     no_locks || error.kind() == ErrorKind::Unsupported
 }
 
-fn unless(harmless: ErrorKind, result: Result<(), Error>) -> Result<(), Error> {
-    if result.as_ref().is_err_and(|error| error.kind() == harmless) { Ok(()) } else { result }
+fn unless(is_harmless: impl Fn(&Error) -> bool, result: Result<(), Error>) -> Result<(), Error> {
+    if result.as_ref().is_err_and(is_harmless) { Ok(()) } else { result }
 }
 
 /// Whether the open file is the one that lies at this path.

@@ -133,7 +133,7 @@ impl RunRecord {
     }
 
     /// A sequence of this name.
-    pub(crate) fn sequence(&self, name: &str) -> Option<&SequenceRecord> {
+    pub fn sequence(&self, name: &str) -> Option<&SequenceRecord> {
         self.sequences.iter().find(|sequence| sequence.name == name)
     }
 

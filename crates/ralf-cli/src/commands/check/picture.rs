@@ -33,9 +33,7 @@ pub(crate) fn png(checks: &[SequenceCheck]) -> Result<Vec<u8>, PlotError> {
 
 fn row(check: &SequenceCheck, figures: &RadarFigures) -> Row {
     let own = check.doubts().filter(|verdict| verdict.subject == figures.name);
-    let words =
-        |verdict: &Verdict| verdict.remedy.as_ref().map_or_else(|| verdict.evidence.clone(), |r| r.words());
-    let says: Vec<String> = own.map(words).collect();
+    let says: Vec<String> = own.map(Verdict::says).collect();
     Row {
         name: format!("{} {}", check.name, figures.name),
         says: if says.is_empty() { "nothing speaks against it".into() } else { says.join("; ") },

@@ -44,6 +44,7 @@ pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
     let mut scans =
         of_one_time(file, scans(indices.into_iter(), &of_rows.collect::<Result<Vec<_>, _>>()?), &times)?;
     move_to_when_measured(&table, &mut scans);
+    scans.sort_by_key(|scan| (scan.t_ns, scan.rows().next()));
     let mut columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<Vec<_>, _>>()?;
     let has_elevation = columns[1].iter().any(|elevation| elevation.is_finite() && *elevation != 0.0);
     without_place(&mut columns);
@@ -62,8 +63,7 @@ fn without_place(columns: &mut [Vec<f32>]) {
 
 /// The scans, of which each has rows of one time.
 fn of_one_time(file: &Path, found: Vec<(i64, Scan)>, times_us: &[i64]) -> Result<Vec<Scan>, DataError> {
-    let mut scans: Vec<Scan> = found.into_iter().map(|(_, scan)| scan).collect();
-    scans.sort_by_key(|scan| (scan.t_ns, scan.rows().next()));
+    let scans: Vec<Scan> = found.into_iter().map(|(_, scan)| scan).collect();
     for scan in &scans {
         let time_us = scan.t_ns / 1000;
         if let Some(row) = scan.rows().find(|row| times_us[*row] != time_us) {
@@ -82,7 +82,6 @@ fn move_to_when_measured(table: &ParquetTable, scans: &mut [Scan]) {
     let medians: Option<Vec<i64>> = scans.iter().map(|scan| median_ns(scan, &measured_us)).collect();
     if let Some(medians) = medians {
         scans.iter_mut().zip(medians).for_each(|(scan, t_ns)| scan.t_ns = t_ns);
-        scans.sort_by_key(|scan| (scan.t_ns, scan.rows().next()));
     }
 }
 
