@@ -3,11 +3,8 @@
 use crate::outcome::Outcome;
 use crate::progress::say;
 use anyhow::anyhow;
-use ralf_data::{
-    Corrections, GroundTruth, Recording, partly_corrected, told_orphaned, told_partly_corrected,
-};
+use ralf_data::{Corrections, GroundTruth, Recording, partly_corrected, told_partly_corrected};
 use ralf_report::told_corrections;
-use std::fmt::Display;
 use std::path::Path;
 
 /// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
@@ -27,7 +24,7 @@ pub(crate) fn merged_truth(
         Some(recording) => Corrections::of_recording(out, recording)?,
         None => Corrections::open(out)?,
     };
-    let outcome = say_orphaned(corrections.orphaned());
+    let outcome = say_orphaned(&corrections.told_orphaned());
     if corrections.is_empty() && asked {
         let has_others = recording.is_some() && !Corrections::open(out)?.is_empty();
         return Err(none_of(&corrections, dataset, has_others));
@@ -39,12 +36,11 @@ pub(crate) fn merged_truth(
 }
 
 /// Warns where the truth of scans is but what people corrected there.
-pub(crate) fn say_partly_corrected(truth: &GroundTruth, out: &Path) -> anyhow::Result<()> {
-    let said = Corrections::open(out)?;
-    if let Some(sentence) = told_partly_corrected(partly_corrected(truth, &said)) {
-        say(&format!("{}: {sentence}", said.file().display()));
+pub(crate) fn say_partly_corrected(truth: &GroundTruth) {
+    let sentence = told_partly_corrected(partly_corrected(truth));
+    if let (Some(corrections), Some(sentence)) = (truth.corrections(), sentence) {
+        say(&format!("{}: {sentence}", corrections.file().display()));
     }
-    Ok(())
 }
 
 /// What people corrected and accepted in an output folder of a recording, which is said, and nothing else; there must
@@ -52,7 +48,7 @@ pub(crate) fn say_partly_corrected(truth: &GroundTruth, out: &Path) -> anyhow::R
 pub(crate) fn said_truth(recording: &Recording, out: &Path) -> anyhow::Result<(GroundTruth, Outcome)> {
     Corrections::check_there(out)?;
     let corrections = Corrections::of_recording(out, recording)?;
-    let outcome = say_orphaned(corrections.orphaned());
+    let outcome = say_orphaned(&corrections.told_orphaned());
     let said = told(&corrections, "learned");
     let none = none_of(&corrections, &recording.path, !Corrections::open(out)?.is_empty());
     let truth = GroundTruth::of_corrections(&recording.path, corrections).ok_or(none)?;
@@ -71,8 +67,8 @@ fn none_of(corrections: &Corrections, dataset: &Path, has_others: bool) -> anyho
     anyhow!("{}: expected corrections, found none{fitting}", corrections.file().display())
 }
 
-/// Names the scans whose corrections belong to another content, and tells how it ended by that.
-pub(crate) fn say_orphaned(scans: &[impl Display]) -> Outcome {
-    scans.iter().for_each(|scan| say(&told_orphaned(scan)));
-    Outcome::done_if(scans.is_empty())
+/// Says of each scan whose corrections don't count why that is so, and tells how it ended by that.
+pub(crate) fn say_orphaned(told: &[String]) -> Outcome {
+    told.iter().for_each(|sentence| say(sentence));
+    Outcome::done_if(told.is_empty())
 }

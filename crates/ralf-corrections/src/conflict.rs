@@ -1,6 +1,7 @@
 //! Whose edit came first.
 
 use crate::history::Placed;
+use crate::met::MET;
 use crate::model::ScanVersion;
 use crate::outcome::{Conflict, Edit};
 use crate::read::scan_state;
@@ -73,14 +74,6 @@ pub(crate) fn last_edit(on: &Connection, scan: i64, about: About) -> rusqlite::R
 fn nobodys(on: &Connection, scan: i64) -> rusqlite::Result<Conflict> {
     on.query_row("SELECT '', '', '', radar, scan FROM scan WHERE id = ?", [scan], conflict)
 }
-
-/// The other strokes with a change to a detection that a stroke changed, or to a scan's mark that it changed.
-const MET: &str = "
-  SELECT scan, other.stroke FROM change AS own JOIN change AS other USING (scan, point)
-  WHERE own.stroke = ?1 AND other.stroke <> own.stroke
-  UNION ALL
-  SELECT scan, other.stroke FROM mark_change AS own JOIN mark_change AS other USING (scan)
-  WHERE own.stroke = ?1 AND other.stroke <> own.stroke";
 
 /// The last stroke that somebody else than `but` set on one of this stroke's detections, or on one of its marks, since
 /// it was set or taken back itself. What is there may be what the stroke left all the same: nothing, twice. Where it is

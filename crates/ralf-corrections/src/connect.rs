@@ -9,16 +9,24 @@ use std::path::Path;
 /// Opens a file that exists, for writing.
 pub(crate) fn for_writing(file: &Path) -> Result<Connection, StoreError> {
     check_beside(file).map_err(StoreError::io(file))?;
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    Connection::open_with_flags(file, flags).and_then(guarded).map_err(told(file))
+    opened(file, "mode=rw", OpenFlags::SQLITE_OPEN_READ_WRITE).and_then(guarded).map_err(told(file))
+}
+
+/// Makes a file, to be written.
+pub(crate) fn for_making(file: &Path) -> rusqlite::Result<Connection> {
+    opened(file, "mode=rwc", OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE)
+}
+
+/// By its URI: SQLite takes a path that begins with `file:` for one.
+fn opened(file: &Path, option: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
+    let flags = flags | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    Connection::open_with_flags(uri(file, option), flags)
 }
 
 /// Opens a file that exists, for reading, with an option of SQLite's.
 pub(crate) fn for_reading(file: &Path, option: &str) -> Result<Connection, StoreError> {
     check_beside(file).map_err(StoreError::io(file))?;
-    let flags =
-        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    Connection::open_with_flags(uri(file, option), flags).and_then(guarded).map_err(told(file))
+    opened(file, option, OpenFlags::SQLITE_OPEN_READ_ONLY).and_then(guarded).map_err(told(file))
 }
 
 /// A database that lies nowhere.

@@ -1,10 +1,12 @@
 //! What an author can undo and redo.
 
+use crate::met::meets_any;
 use crate::outcome::{History, Step};
-use rusqlite::{Connection, OptionalExtension, Row, params};
-use std::collections::BTreeSet;
+use rusqlite::{Connection, OptionalExtension, params};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 
 /// A stroke, and the event that set it or took it back last.
+#[derive(Clone, Copy)]
 pub(crate) struct Placed {
     pub(crate) id: i64,
     pub(crate) moved: i64,
@@ -37,44 +39,42 @@ impl Steps<'_> {
 
     /// So many steps that can be undone, the last one first.
     fn undoable(self, on: &Connection, wanted: usize) -> rusqlite::Result<Vec<Vec<Placed>>> {
-        self.steps(
+        let mut left = Left::new(self.strokes(
             on,
             "SELECT id, applied, step FROM stroke WHERE sequence = ? AND author = ? AND applied IS NOT NULL
              ORDER BY applied DESC, id DESC",
-            wanted,
-        )
+        )?);
+        let mut steps = Vec::new();
+        while let Some(step) = left.next(on)?.filter(|_| steps.len() < wanted) {
+            steps.extend(self.there(on, step)?);
+        }
+        Ok(steps)
     }
 
     /// So many steps that can be redone, the one that was taken back last first.
     fn redoable(self, on: &Connection, wanted: usize) -> rusqlite::Result<Vec<Vec<Placed>>> {
-        self.steps(
+        let strokes = self.strokes(
             on,
-            "SELECT id, undone, CAST(undone AS TEXT) FROM stroke
-             WHERE sequence = ? AND author = ? AND undone IS NOT NULL ORDER BY undone DESC, id",
-            wanted,
-        )
-    }
-
-    /// The steps that a query's strokes make up: those in a row that have the same name for it.
-    fn steps(self, on: &Connection, query: &str, wanted: usize) -> rusqlite::Result<Vec<Vec<Placed>>> {
-        let mut query = on.prepare_cached(query)?;
-        let mut rows = query.query(params![self.sequence, self.author])?;
-        let (mut steps, mut strokes, mut step) = (Vec::new(), Vec::new(), None);
-        while let Some(row) = rows.next()? {
-            let of: Option<String> = row.get(2)?;
-            if !strokes.is_empty() && (of.is_none() || of != step) {
-                steps.extend(self.there(on, std::mem::take(&mut strokes))?);
-                if steps.len() == wanted {
-                    return Ok(steps);
-                }
+            "SELECT id, undone, NULL FROM stroke WHERE sequence = ? AND author = ? AND undone IS NOT NULL
+             ORDER BY undone DESC, id",
+        )?;
+        let mut steps = Vec::new();
+        for step in strokes.chunk_by(|(a, _), (b, _)| a.moved == b.moved) {
+            if steps.len() == wanted {
+                break;
             }
-            strokes.push(placed(row)?);
-            step = of;
-        }
-        if !strokes.is_empty() {
-            steps.extend(self.there(on, strokes)?);
+            steps.extend(self.there(on, step.iter().map(|(stroke, _)| *stroke).collect())?);
         }
         Ok(steps)
+    }
+
+    /// The strokes that a query finds, each with the name of its step.
+    fn strokes(self, on: &Connection, query: &str) -> rusqlite::Result<Vec<Named>> {
+        on.prepare_cached(query)?
+            .query_map(params![self.sequence, self.author], |row| {
+                Ok((Placed { id: row.get(0)?, moved: row.get(1)? }, row.get(2)?))
+            })?
+            .collect()
     }
 
     /// A step, unless it changed what isn't there now.
@@ -95,34 +95,59 @@ impl Steps<'_> {
         }
         Ok(Some(strokes))
     }
-
-    /// How many steps can be undone, and how many redone.
-    fn depths(self, on: &Connection) -> rusqlite::Result<(u64, u64)> {
-        if !self.gone.is_empty() {
-            let (undo, redo) = (self.undoable(on, usize::MAX)?, self.redoable(on, usize::MAX)?);
-            return Ok((undo.len() as u64, redo.len() as u64));
-        }
-        let of = [self.sequence, self.author];
-        let undo = "SELECT count(*) FROM (SELECT step, lag(step) OVER (ORDER BY applied, id) AS before FROM stroke
-             WHERE sequence = ? AND author = ? AND applied IS NOT NULL) WHERE step IS NULL OR step IS NOT before";
-        let redo = "SELECT count(DISTINCT undone) FROM stroke WHERE sequence = ? AND author = ?";
-        Ok((count(on, undo, of)?, count(on, redo, of)?))
-    }
 }
 
-fn placed(row: &Row) -> rusqlite::Result<Placed> {
-    Ok(Placed { id: row.get(0)?, moved: row.get(1)? })
+/// A stroke with the name of its step; one without a name is a step by itself.
+type Named = (Placed, Option<String>);
+
+/// An author's strokes that no step was made of yet, the last one first.
+struct Left {
+    strokes: VecDeque<Named>,
+    /// How many of each step there are.
+    of_step: HashMap<String, usize>,
+}
+
+impl Left {
+    fn new(strokes: Vec<Named>) -> Self {
+        let mut of_step = HashMap::new();
+        for step in strokes.iter().filter_map(|(_, step)| step.as_ref()) {
+            *of_step.entry(step.clone()).or_default() += 1;
+        }
+        Self { strokes: strokes.into(), of_step }
+    }
+
+    /// The step of the last stroke. What another window did between its strokes stays; those before that it was done
+    /// upon are a step of their own.
+    fn next(&mut self, on: &Connection) -> rusqlite::Result<Option<Vec<Placed>>> {
+        let Some((last, name)) = self.strokes.pop_front() else { return Ok(None) };
+        let mut step = vec![last];
+        let Some(name) = name else { return Ok(Some(step)) };
+        let (mut between, all) = (Vec::new(), self.of_step[&name]);
+        while step.len() < all {
+            let Some(before) = self.strokes.pop_front() else { break };
+            if before.1.as_ref() != Some(&name) {
+                between.push(before);
+                continue;
+            }
+            let later: Vec<i64> = between.iter().map(|(stroke, _): &Named| stroke.id).collect();
+            if meets_any(on, before.0.id, &later)? {
+                self.strokes.push_front(before);
+                break;
+            }
+            step.push(before.0);
+        }
+        self.of_step.insert(name, all - step.len());
+        between.into_iter().rev().for_each(|stroke| self.strokes.push_front(stroke));
+        Ok(Some(step))
+    }
 }
 
 /// Both ends of an author's history in a sequence, and how far it reaches.
 pub(crate) fn history(on: &Connection, steps: Steps) -> rusqlite::Result<History> {
-    let (undo_depth, redo_depth) = steps.depths(on)?;
-    let (undo, redo) = (step(on, &steps.to_undo(on)?)?, step(on, &steps.to_redo(on)?)?);
-    Ok(History { undo, redo, undo_depth, redo_depth })
-}
-
-fn count(on: &Connection, query: &str, of: [&str; 2]) -> rusqlite::Result<u64> {
-    on.prepare_cached(query)?.query_row(of, |row| row.get(0))
+    let (undo, redo) = (steps.undoable(on, usize::MAX)?, steps.redoable(on, usize::MAX)?);
+    let (undo_depth, redo_depth) = (undo.len() as u64, redo.len() as u64);
+    let first = |steps: &[Vec<Placed>]| step(on, steps.first().map_or(&[], Vec::as_slice));
+    Ok(History { undo: first(&undo)?, redo: first(&redo)?, undo_depth, redo_depth })
 }
 
 /// What a step did; `None` of no strokes.

@@ -59,7 +59,7 @@ impl ScanLayer {
 /// # Errors
 /// A file that is no store, or one of another version; a mark of another size than its scan.
 pub fn read_layer(file: &Path) -> Result<BTreeMap<ScanKey, Vec<ScanLayer>>, StoreError> {
-    let mut connection = open_read_only(file)?;
+    let mut connection = open_read_only(file)?.connection;
     // One transaction is one moment, whoever writes meanwhile.
     let moment = connection.transaction().map_err(told(file))?;
     let mut layers: BTreeMap<ScanKey, Vec<ScanLayer>> = BTreeMap::new();

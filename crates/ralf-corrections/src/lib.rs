@@ -60,6 +60,7 @@ mod error;
 mod history;
 mod identity;
 mod layer;
+mod met;
 mod model;
 mod outcome;
 mod read;

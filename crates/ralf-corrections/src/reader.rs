@@ -1,5 +1,6 @@
 //! What can be asked of a store.
 
+use crate::alone::has_journal;
 use crate::changes::{Changes, changes};
 use crate::content::ScanContent;
 use crate::error::{StoreError, told};
@@ -9,11 +10,12 @@ use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{History, ScanState};
 use crate::read::{ScanSummary, contents, ids, scan_state, summaries, versions};
 use crate::sayings::{Saying, sayings};
-use crate::schema;
+use crate::schema::{self, Opened};
 use crate::workday::{Workday, workdays};
 use rusqlite::Connection;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// The corrections of one output folder, to be read. Whoever writes meanwhile, even for long, is not waited for.
 #[derive(Debug)]
@@ -22,6 +24,19 @@ pub struct Reader {
     pub(crate) file: PathBuf,
     /// `None` of a store that can't be deleted or replaced, for it lies in memory or where nobody can write.
     pub(crate) identity: Option<Identity>,
+    /// What lay there when it was read, of one that doesn't tell what others write from then on.
+    pub(crate) snapshot: Option<Lying>,
+}
+
+/// What lies in a store's place: when the file was changed last, its length, and whether edits lie beside it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Lying(Option<(Option<SystemTime>, u64)>, bool);
+
+impl Lying {
+    fn at(file: &Path) -> Self {
+        let found = file.metadata().ok().map(|found| (found.modified().ok(), found.len()));
+        Self(found, has_journal(file))
+    }
 }
 
 impl Reader {
@@ -30,8 +45,10 @@ impl Reader {
     /// # Errors
     /// A file that is no store, is damaged, or is of another version.
     pub fn open(file: &Path) -> Result<Self, StoreError> {
-        let connection = schema::open_read_only(file)?;
-        Ok(Self { connection, file: file.to_owned(), identity: None })
+        let lying = Lying::at(file);
+        let Opened { connection, is_live } = schema::open_read_only(file)?;
+        let snapshot = (!is_live).then_some(lying);
+        Ok(Self { connection, file: file.to_owned(), identity: None, snapshot })
     }
 
     /// A store in which nothing is said, for a place that has none and can't have one.
@@ -40,7 +57,14 @@ impl Reader {
     /// Only those of the database itself.
     pub fn empty(file: &Path) -> Result<Self, StoreError> {
         let connection = schema::nowhere().map_err(told(file))?;
-        Ok(Self { connection, file: file.to_owned(), identity: None })
+        let snapshot = Some(Lying::at(file));
+        Ok(Self { connection, file: file.to_owned(), identity: None, snapshot })
+    }
+
+    /// Whether it tells what lies there now. One that was opened where this program can't write, and nobody else did
+    /// then, has to be opened again once somebody does.
+    pub fn is_current(&self) -> bool {
+        self.snapshot.as_ref().is_none_or(|seen| *seen == Lying::at(&self.file))
     }
 
     /// Where the store lies.
@@ -82,6 +106,12 @@ impl Reader {
     pub fn versions(&self, sequence: &str) -> Result<Vec<ScanVersion>, StoreError> {
         let found = self.read(|on| versions(on, sequence))?;
         Ok(found.into_iter().map(|(_, version)| version).collect())
+    }
+
+    /// The number of the last thing done in a sequence, by anyone; 0 before the first.
+    pub fn counter_of(&self, sequence: &str) -> Result<i64, StoreError> {
+        let last = "SELECT coalesce(max(id), 0) FROM event WHERE sequence = ?";
+        self.read(|on| on.query_row(last, [sequence], |row| row.get(0)))
     }
 
     /// The scans of a sequence that have corrections or a mark, by radar and number. One of which something was

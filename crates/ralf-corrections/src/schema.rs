@@ -73,7 +73,7 @@ fn make(file: &Path) -> Result<(), StoreError> {
     static MADE: AtomicU32 = AtomicU32::new(0);
     let number = MADE.fetch_add(1, Ordering::Relaxed);
     let beside = suffixed(file, &format!(".{}-{number}.new", std::process::id()));
-    let made = Connection::open(&beside).and_then(|on| tables::create(&on)).map_err(told(file));
+    let made = connect::for_making(&beside).and_then(|on| tables::create(&on)).map_err(told(file));
     let moved = made.and_then(|()| match fs::hard_link(&beside, file) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
         // Where the file system knows no links.
@@ -90,14 +90,27 @@ fn suffixed(file: &Path, suffix: &str) -> PathBuf {
     name.into()
 }
 
-/// Opens a store that exists, for reading. One of the first version is read into memory as if it were of this one.
-pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
+/// A store that was opened for reading.
+pub(crate) struct Opened {
+    pub(crate) connection: Connection,
+    /// Whether it tells what others write from now on.
+    pub(crate) is_live: bool,
+}
+
+/// Opens a store that exists, for reading. One of the first version is read into memory as if it were of this one; that
+/// where nobody can lay a file beside it as if it never changed.
+pub(crate) fn open_read_only(file: &Path) -> Result<Opened, StoreError> {
     refuse_empty(file)?;
-    let option = if is_unchanging(file)? { "immutable=1" } else { READ };
+    let is_unchanging = is_unchanging(file)?;
+    let option = if is_unchanging { "immutable=1" } else { READ };
     let connection = connect::for_reading(file, option)?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     let found = check(&connection, file)?;
-    if found == VERSION { Ok(connection) } else { in_memory(&uri(file, option)).map_err(told(file)) }
+    if found == VERSION {
+        return Ok(Opened { connection, is_live: !is_unchanging });
+    }
+    let connection = in_memory(&uri(file, option)).map_err(told(file))?;
+    Ok(Opened { connection, is_live: false })
 }
 
 /// A further connection to a store that is open already, for reading.
@@ -121,7 +134,8 @@ fn in_memory(first: &str) -> rusqlite::Result<Connection> {
     Ok(connection)
 }
 
-/// Whether nobody can write to the store: SQLite wants to lay a file beside it even for reading, and can't there.
+/// Whether nobody writes to the store now, and this program can't: SQLite wants to lay a file beside it even for
+/// reading, and can't there.
 fn is_unchanging(file: &Path) -> Result<bool, StoreError> {
     let connection = connect::for_reading(file, READ)?;
     match tables::application(&connection) {

@@ -46,7 +46,7 @@ impl Store {
         // The journal lies there from the first reading on.
         connection.query_row("SELECT id FROM store", [], |_| Ok(())).map_err(told(file))?;
         let identity = Some(Identity::of_store(file)?);
-        Ok(Self(Reader { connection, file: file.to_owned(), identity }))
+        Ok(Self(Reader { connection, file: file.to_owned(), identity, snapshot: None }))
     }
 
     /// A further connection to the same store: what is read through it waits for no edit.
@@ -55,7 +55,12 @@ impl Store {
     /// A file that is not there any more; see [`StoreError`].
     pub fn reader(&self) -> Result<Reader, StoreError> {
         let connection = schema::open_again(self.file())?;
-        let reader = Reader { connection, file: self.file().to_owned(), identity: self.0.identity.clone() };
+        let reader = Reader {
+            connection,
+            file: self.file().to_owned(),
+            identity: self.0.identity.clone(),
+            snapshot: None,
+        };
         reader.check_there().map(|()| reader)
     }
 

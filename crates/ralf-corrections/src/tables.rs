@@ -105,7 +105,11 @@ CREATE TABLE edit (
 ";
 
 /// Fills the tables from those of the first version, which are called `{old}scan` and so on.
+///
+/// Its name is made of what it holds, so that its copies have it, too.
 const TAKE_OVER: &str = "
+UPDATE store SET id = coalesce(
+  (SELECT 'first-' || lower(hex(at || ' ' || author || ' ' || sequence)) FROM {old}event ORDER BY id LIMIT 1), id);
 INSERT INTO author (id, name) SELECT DISTINCT author, author FROM {old}event;
 INSERT INTO scan (id, sequence, radar, scan, content, detections, revision)
   SELECT id, sequence, radar, scan, x'', detections, revision FROM {old}scan;

@@ -20,8 +20,8 @@ pub struct Workday {
     /// Scans that were marked as reviewed, as far as these marks were not taken back and the scans still have one; each
     /// once.
     pub scans: u64,
-    /// The time between edits no more than [`PAUSE_S`] apart, s. What came before the first one of a stretch
-    /// nobody knows.
+    /// The time between edits no more than [`PAUSE_S`] apart, s; that over midnight is the later day's. What came
+    /// before the first one of a stretch nobody knows.
     pub worked_s: f64,
 }
 
@@ -32,7 +32,7 @@ pub(crate) fn workdays(on: &Connection) -> rusqlite::Result<Vec<Workday>> {
         "WITH
          done AS (SELECT event.id, name, date(at) AS day, julianday(at) AS days
                   FROM event JOIN author ON author.id = event.author),
-         apart AS (SELECT name, day, 86400 * (days - lag(days) OVER (PARTITION BY name, day ORDER BY days, id)) AS s
+         apart AS (SELECT name, day, 86400 * (days - lag(days) OVER (PARTITION BY name ORDER BY days, id)) AS s
                    FROM done),
          worked AS (SELECT name, day, count(*) AS edits, total(CASE WHEN s <= ?1 THEN s END) AS s
                     FROM apart GROUP BY name, day),

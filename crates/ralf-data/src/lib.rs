@@ -63,6 +63,6 @@ pub use training::{TrainingGatherer, TrainingTruth};
 pub use tree::{RECORD, SENSORS, SEQUENCES, sensors_file, sequence_folder};
 pub use truth::{
     Causes, Corrections, GroundTruth, HeldContent, ScanId, lost_sequences, partly_corrected, scan_content,
-    told_orphaned, told_partly_corrected,
+    told_partly_corrected,
 };
 pub use write::{has_sequence, has_whole_sequence, write_sequence, write_sequence_with};

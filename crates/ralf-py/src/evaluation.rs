@@ -11,7 +11,6 @@ use ralf_data::result::labelled_recording;
 use ralf_data::run::read_record;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
-    told_orphaned,
 };
 use ralf_report::listed;
 use std::collections::BTreeSet;
@@ -57,15 +56,14 @@ fn compare(out: &Path, dataset: &Path) -> Result<(Evaluation, Vec<String>), Data
 /// don't count.
 fn corrected(out: &Path, dataset: &Path) -> Result<(GroundTruth, Vec<String>), DataError> {
     let corrections = match labelled_recording(out, dataset)? {
-        Some((run, mut recording)) => {
+        Some((run, recording)) => {
             refuse_lost_sequences(out, &recording)?;
-            recording.sequences.retain(|reader| run.holds(&reader.sequence().name));
             run.refuse_changes(&recording)?;
             Corrections::of_recording(out, &recording)?
         }
         None => Corrections::open(out)?,
     };
-    let orphaned = corrections.orphaned().iter().map(told_orphaned).collect();
+    let orphaned = corrections.told_orphaned();
     Ok((GroundTruth::merged(dataset, corrections)?, orphaned))
 }
 

@@ -58,8 +58,8 @@ pub struct Page {
     /// Sequences that are not compared with the truth, for there is none of them, while there is of others: the page
     /// names them.
     pub without_truth: Vec<String>,
-    /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not
-    /// applied.
+    /// A sentence for each scan of which people said something that is not applied, for it held something else then or
+    /// can't be read.
     pub orphaned: Vec<String>,
     /// LiDAR scans that can't be read, whose points the pictures lack: a sentence each.
     pub drawn_without: Vec<String>,

@@ -35,14 +35,14 @@ impl Truth {
         if !concerned.is_empty() {
             told.push(told_corrections(&concerned, "merged into the truth"));
         }
-        let partly = labels.as_ref().map_or(0, |truth| partly_corrected(truth, &concerned));
+        let partly = labels.as_ref().map_or(0, partly_corrected);
         told.extend(told_partly_corrected(partly));
         Ok(Self { labels, corrections, told })
     }
 
-    /// Scans whose corrections belong to another content.
+    /// A sentence for each scan whose corrections belong to another content, or to what can't be read.
     pub(crate) fn orphaned(&self) -> Vec<String> {
-        self.corrections.orphaned().iter().map(ToString::to_string).collect()
+        self.corrections.told_orphaned()
     }
 
     /// Labels against it, where there is some.

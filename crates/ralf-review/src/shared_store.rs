@@ -32,8 +32,7 @@ impl SharedStore {
                 (Writer::Open(Box::new(Mutex::new(store))), readers)
             }
             Err(error @ StoreError::ReadOnly { .. }) => {
-                let reader = if file.exists() { Reader::open(file)? } else { Reader::empty(file)? };
-                (Writer::ReadOnly(error.to_string()), vec![Mutex::new(reader)])
+                (Writer::ReadOnly(error.to_string()), vec![Mutex::new(to_be_read(file)?)])
             }
             Err(error) => return Err(error),
         };
@@ -59,7 +58,11 @@ impl SharedStore {
         ask: impl FnOnce(&Reader) -> Result<T, StoreError>,
     ) -> Result<T, StoreError> {
         let free = self.readers.iter().find_map(|reader| reader.try_lock().ok());
-        ask(&free.unwrap_or_else(|| held(&self.readers[0])))
+        let mut reader = free.unwrap_or_else(|| held(&self.readers[0]));
+        if !reader.is_current() {
+            *reader = to_be_read(&self.file)?;
+        }
+        ask(&reader)
     }
 
     /// Edits; whoever else wants to waits. `None` where nothing can be written.
@@ -80,6 +83,11 @@ impl SharedStore {
             Writer::ReadOnly(_) => Ok(()),
         }
     }
+}
+
+/// What lies where nothing can be written, for who only looks.
+fn to_be_read(file: &Path) -> Result<Reader, StoreError> {
+    if file.exists() { Reader::open(file) } else { Reader::empty(file) }
 }
 
 /// What no other corrections have: the store's own name, and where it lies, for a folder may be copied with its store.

@@ -84,7 +84,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let recording = recording_of(args, dataset)?;
     let out = corrections.or(Some(&args.out));
     let (truth, outcome) = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
-    say_partly_corrected(&truth, corrections.unwrap_or(&args.out))?;
+    say_partly_corrected(&truth);
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
     let evaluation = || comparison.evaluation_of(&args.out, &truth);
@@ -103,10 +103,10 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
 /// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that
 /// there need not be one.
 fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Recording>> {
-    let Some((run, mut recording)) = labelled_recording(&args.out, dataset)? else { return Ok(None) };
-    // Sequences without truth are named later on, whatever the recording has.
+    let Some((run, recording)) = labelled_recording(&args.out, dataset)? else { return Ok(None) };
+    // Sequences without truth are named later on, whatever the recording has, and so are those without labels: what
+    // people said of them is truth all the same.
     args.changed.check_sequences(args.corrections.as_deref().unwrap_or(&args.out), None, &recording)?;
-    recording.sequences.retain(|reader| run.holds(&reader.sequence().name));
     args.changed.check(&run, &recording)?;
     Ok(Some(recording))
 }

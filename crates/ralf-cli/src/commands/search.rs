@@ -140,9 +140,7 @@ impl SearchArgs {
         let recording = with_stored(dataset.open_corrected(base)?, self.depth.as_deref(), None)?;
         let (truth, outcome) =
             merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
-        if let Some(out) = corrections {
-            say_partly_corrected(&truth, out)?;
-        }
+        say_partly_corrected(&truth);
         Ok((recording, truth, outcome))
     }
 

@@ -138,6 +138,10 @@ fn two_people_agree_as_far_as_it_is_by_hand() {
     assert_eq!(found["classes"]["car"], car);
     let scan = json!([{ "sequence": "00", "radar": RADAR, "scan": 0, "labelled_by_both": 4, "disagree": 1 }]);
     assert_eq!(found["disagreements"], scan);
+    // It is people's word, whatever is labelled at the moment.
+    ralf(["label", path, "-o", out, "--sequence", "01", "--set", "fusion.threshold=0.6"]).exits(0);
+    assert_eq!(ralf([command, out, truth, path, agreement, &file, "--json"]).exits(0).json(), found);
+    ralf([command, out, truth, path]).exits(3).says(["sequence 00", "4 corrected detections"]);
 }
 
 /// A stroke over a thing reaches scans that nobody drew, too.
@@ -257,6 +261,11 @@ fn a_report_tells_where_its_truth_comes_from_and_what_it_is_worth() {
     let partly = "corrections.sqlite: of 1 scan the truth is but what people corrected there";
     report().says([merged, partly]);
     evaluate().says([merged, partly]);
+    let picture = dataset.beside("scan.png");
+    let plot = ["plot", &dataset.path, &dataset.out, "--sequence", "00", "--scan", "0", "-o", &picture];
+    ralf(plot)
+        .exits(0)
+        .says(["corrections.sqlite: 1 corrected detections and 0 reviewed scans are not drawn"]);
     let html = fs::read_to_string(&page).unwrap();
     assert!(html.contains("They tell of 1 of ") && html.contains("1 corrected detections and 0 reviewed"));
     assert!(html.contains("of 1 scan the truth is but") && html.contains("sprayed water"));

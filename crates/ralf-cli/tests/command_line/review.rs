@@ -158,9 +158,7 @@ fn program_of_nobody() -> Command {
 fn an_out_that_can_only_be_read_is_shown_and_says_so() {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
     let is_root = fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
-    let works =
-        |command: &mut Command| command.arg("--version").output().is_ok_and(|ran| ran.status.success());
-    if is_root && !works(&mut program_of_nobody()) {
+    if is_root && !is_root_and_can_be_nobody() {
         return println!("skipped: root can write everywhere, and there is no setpriv");
     }
     let dataset = labelled();
@@ -193,6 +191,42 @@ fn an_out_that_can_only_be_read_is_shown_and_says_so() {
         assert!(undo.starts_with("HTTP/1.1 403") && undo.contains("can only be read"), "{undo}");
         assert!(review.end("-TERM"));
         permit(0o755);
+    }
+}
+
+/// Whether this is root, and may run the program as somebody who can write nowhere.
+#[cfg(unix)]
+fn is_root_and_can_be_nobody() -> bool {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0)
+        && program_of_nobody().arg("--version").output().is_ok_and(|ran| ran.status.success())
+}
+
+/// Who can only read began to look when nobody wrote, and before there was a store at all.
+#[cfg(unix)]
+#[test]
+fn who_can_only_read_sees_what_others_write_meanwhile() {
+    use std::os::unix::fs::PermissionsExt;
+    if !is_root_and_can_be_nobody() {
+        return println!("skipped: only root writes where another person can't");
+    }
+    let dataset = labelled();
+    let out = Path::new(&dataset.out);
+    for (folder, mode) in [(out.parent().unwrap(), 0o755), (out, 0o555)] {
+        fs::set_permissions(folder, fs::Permissions::from_mode(mode)).unwrap();
+    }
+    let reader = Review::start_with(program_of_nobody(), &dataset, &[]);
+    let sees = |corrected: u32| {
+        let queue = reader.ask("GET", "sequences/00/queue", "");
+        assert!(queue.contains(&format!("\"corrected_detections\":{corrected}")), "{corrected}: {queue}");
+    };
+    sees(0);
+    for corrected in 1..3 {
+        let writer = Review::start(&dataset, &[]);
+        writer.correct(corrected - 1);
+        sees(corrected);
+        assert!(writer.end("-TERM"));
+        sees(corrected);
     }
 }
 

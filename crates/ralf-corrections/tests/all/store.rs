@@ -272,3 +272,37 @@ fn a_step_below_one_that_is_passed_over_stays() {
     assert_eq!(done(store.undo("00", &ada).unwrap()).changed, 2);
     assert_eq!(done(store.undo("00", &ada).unwrap()).changed, 1);
 }
+
+/// A group of two strokes with another window's stroke between them, which rests on the first one or doesn't.
+#[test]
+fn a_group_is_one_step_whatever_another_window_did_meanwhile() {
+    for (between, depth, changed) in [(7, 2, [3, 1, 0]), (1, 3, [2, 1, 1])] {
+        let folder = Folder::new();
+        let (mut store, ada) = (folder.open(), who("ada"));
+        let of_group = |label, at| Stroke { group: Some("a".into()), ..stroke(label, vec![at]) };
+        done(store.apply(&of_group(10, edit(3, 0, &[1])), &ada).unwrap());
+        done(store.apply(&stroke(30, vec![edit(3, 1, &[between])]), &ada).unwrap());
+        let last = done(store.apply(&of_group(10, edit(2, 0, &[2, 4])), &ada).unwrap());
+        assert_eq!(last.history.undo_depth, depth);
+        assert_eq!(changed.map(|_| done(store.undo("00", &ada).unwrap()).changed), changed);
+        assert_eq!(store.scan(&version(3)).unwrap().corrections, []);
+        (0..3).for_each(|_| drop(done(store.redo("00", &ada).unwrap())));
+        let label = if between == 1 { vec![(1, 30)] } else { vec![(1, 10), (7, 30)] };
+        assert_eq!(store.scan(&version(3)).unwrap().corrections, label);
+    }
+}
+
+#[test]
+fn who_works_over_midnight_has_worked_without_a_break() {
+    let folder = Folder::new();
+    let (mut store, ada) = (folder.open(), who("ada"));
+    for point in 0..3 {
+        done(store.apply(&stroke(10, vec![edit(3, point, &[point as u32])]), &ada).unwrap());
+    }
+    for (event, at) in [(1, "03T23:57:00"), (2, "03T23:59:00"), (3, "04T00:02:00")] {
+        folder.sql(&format!("UPDATE event SET at = '2026-02-{at}.000Z' WHERE id = {event}"));
+    }
+    let worked: Vec<_> =
+        store.workdays().unwrap().into_iter().map(|day| (day.day, day.worked_s.round())).collect();
+    assert_eq!(worked, [("2026-02-03".to_owned(), 120.0), ("2026-02-04".to_owned(), 180.0)]);
+}

@@ -6,7 +6,8 @@ use super::{Corrections, ScanId};
 use crate::error::DataError;
 use crate::read::{Recording, ros};
 use crate::result::LabelledRun;
-use std::collections::BTreeSet;
+use ralf::sensors::SourceError;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 impl Corrections {
@@ -17,7 +18,15 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn of_recording(out: &Path, recording: &Recording) -> Result<Self, DataError> {
         let corrections = Self::open(out)?.of_sequences(recording);
-        corrections.bound(|scan| Ok(content_now(recording, scan)))
+        let mut unread = BTreeMap::new();
+        let bound = corrections.bound(|scan| {
+            let content = content_now(recording, scan).transpose();
+            Ok::<_, DataError>(content.unwrap_or_else(|error| {
+                unread.insert(scan.clone(), error.to_string());
+                None
+            }))
+        });
+        bound.map(|bound| bound.with_unread(unread))
     }
 }
 
@@ -43,9 +52,9 @@ pub fn lost_sequences(
     Ok(lost)
 }
 
-/// What a scan of a recording holds; `None` of one that isn't there or can't be read.
-fn content_now(recording: &Recording, scan: &ScanId) -> Option<HeldContent> {
+/// What a scan of a recording holds, or why it can't be read; `None` of one that isn't there.
+fn content_now(recording: &Recording, scan: &ScanId) -> Option<Result<HeldContent, SourceError>> {
     let reader = recording.sequences.iter().find(|reader| reader.sequence().name == scan.sequence)?;
     let at = scan.place_in(reader.sequence())?;
-    HeldContent::read(reader.as_ref(), at).ok()
+    Some(HeldContent::read(reader.as_ref(), at))
 }

@@ -11,7 +11,6 @@ use crate::truth::scan_id::ScanId;
 use ralf::label::UNLABELED;
 use ralf_corrections::{FILE, Reader, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// The corrections of one output folder, as they were at one moment.
@@ -22,11 +21,8 @@ pub struct Corrections {
     scans: BTreeMap<ScanId, Vec<ScanLayer>>,
     /// The scans of which something was said while they held something else.
     orphaned: Vec<ScanId>,
-}
-
-/// The sentence about a scan of which something was said while it held something else.
-pub fn told_orphaned(scan: &impl Display) -> String {
-    format!("corrections of {scan} are kept and not applied: they were made when it held other detections")
+    /// Those among them that can't be read now, and why.
+    unread: BTreeMap<ScanId, String>,
 }
 
 /// A scan as it was before anybody settled what others said of it.
@@ -62,7 +58,7 @@ impl Corrections {
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans: BTreeMap<ScanId, Vec<ScanLayer>> =
             scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
-        Ok(Self { file, scans, orphaned: Vec::new() })
+        Ok(Self { file, scans, orphaned: Vec::new(), unread: BTreeMap::new() })
     }
 
     /// A name that no other store has, and each of its copies; `None` where there is no store.
@@ -153,6 +149,21 @@ impl Corrections {
     /// The scans of which something was said while they held something else: it is kept in the file, and never applied.
     pub fn orphaned(&self) -> &[ScanId] {
         &self.orphaned
+    }
+
+    /// A sentence for each of these.
+    pub fn told_orphaned(&self) -> Vec<String> {
+        let told = |scan: &ScanId| {
+            let why = self.unread.get(scan).map(|error| format!("the scan can't be read: {error}"));
+            let why = why.unwrap_or_else(|| "they were made when it held other detections".into());
+            format!("corrections of {scan} are kept and not applied: {why}")
+        };
+        self.orphaned.iter().map(told).collect()
+    }
+
+    /// That these scans can't be read, and why.
+    pub(super) fn with_unread(self, unread: BTreeMap<ScanId, String>) -> Self {
+        Self { unread, ..self }
     }
 
     /// Where they lie.

@@ -79,6 +79,11 @@ impl GroundTruth {
         (!self.scans.is_empty()).then_some(self)
     }
 
+    /// What people corrected, which stands above the files; `None` where nobody asked for it.
+    pub fn corrections(&self) -> Option<&Corrections> {
+        self.corrections.as_ref()
+    }
+
     /// The scans with truth, in order.
     pub fn scans(&self) -> &[ScanId] {
         &self.scans

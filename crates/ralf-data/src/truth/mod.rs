@@ -14,7 +14,7 @@ pub use bound::lost_sequences;
 pub use causes::Causes;
 pub(crate) use causes::{cause_names, check_codes, names_of_causes};
 pub use content::{HeldContent, scan_content};
-pub use corrections::{Corrections, told_orphaned};
+pub use corrections::Corrections;
 pub use effective::effective_labels;
 pub use ground_truth::GroundTruth;
 pub use partly::{partly_corrected, told_partly_corrected};

@@ -197,7 +197,6 @@ fn left_out(content: &Content) -> Markup {
         @let orphaned = content.truth.orphaned();
         @if !orphaned.is_empty() {
             h3 { "Corrections that are not applied" }
-            p { "They were made when these scans held other detections; they are kept." }
             ul { @for scan in &orphaned { li { (scan) } } }
         }
     }

@@ -1,12 +1,12 @@
 //! Where two people said different things of the same detections, neither of whom saw what the other said.
 
-use super::opinion::bases;
+use super::opinion::{bases, by_all_that_is_said};
 use super::things;
 use crate::app::App;
 use crate::causes::sayable;
 use crate::http::{Answer, ApiError, json};
 use ralf::sensors::Sequence;
-use ralf_corrections::{FILE, Reader};
+use ralf_corrections::FILE;
 use ralf_data::judge::{Difference, compare, is_about_plausibility};
 use ralf_data::result::RadarScanKey;
 use ralf_data::team::second_labellers;
@@ -43,9 +43,18 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         let sentence = "who labels a second time sees nobody else's labels: open the review without --second";
         return Err(ApiError::Forbidden(sentence.into()));
     }
-    // What is read below is opened anew: a store that was deleted under the server is noticed here.
-    app.said(Reader::counter)?;
     let known = app.labels(index)?.things(reader)?;
+    // Of the store that the server has open, which notices when it was deleted: what is read below is opened anew.
+    let said = || app.said(|store| store.counter_of(sequence));
+    by_all_that_is_said(said, |_| found(app, (index, reader), &known)).and_then(|found| json(&found))
+}
+
+/// Where people disagree, and what strokes on those scans rest on.
+fn found(
+    app: &App,
+    (index, reader): (usize, &dyn SequenceReader),
+    known: &SequenceThings,
+) -> Result<Value, ApiError> {
     let first = through(app, (index, reader), &app.out.join(FILE))?;
     let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
     for (name, file) in second_labellers(&app.out)? {
@@ -62,16 +71,13 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         let scans = agreement.scans.len();
         let agreement = agreement.json();
         told.push(json!({ "second": name, "scans": scans, "left_out": left_out, "agreement": agreement }));
-        gather(reader.sequence(), &known, &differences, &name, &mut found);
+        gather(reader.sequence(), known, &differences, &name, &mut found);
     }
-    let base = bases(app, reader.sequence(), &known, found.values().flatten())?;
-    let waiting = app.team.twice(sequence).map(|twice| twice.difference(&both).count());
-    json(&json!({
-        "people": told,
-        "waiting": waiting,
-        "changes": rows(reader.sequence(), &known, found),
-        "base": base,
-    }))
+    let base = bases(app, reader.sequence(), known, found.values().flatten())?;
+    let twice = app.team.twice(&reader.sequence().name);
+    let waiting = twice.map(|twice| twice.difference(&both).count());
+    let changes = rows(reader.sequence(), known, found);
+    Ok(json!({ "people": told, "waiting": waiting, "changes": changes, "base": base }))
 }
 
 /// What somebody said of the scans of a sequence that it is through with.

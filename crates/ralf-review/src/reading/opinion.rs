@@ -37,20 +37,20 @@ pub(crate) fn opinion(app: &App, sequence: &str, asked: &Around) -> Answer {
     opinion.and_then(|opinion| json(&opinion))
 }
 
-/// What is found by the answers of people; found again where somebody says more meanwhile, for revisions that are read
-/// after the answers belong to these only if nobody has.
-pub(super) fn by_all_that_is_said(
-    said: impl Fn() -> Result<Vec<Option<data::Answer>>, ApiError>,
-    find: impl Fn(&[Option<data::Answer>]) -> Result<Value, ApiError>,
+/// What is found by what people say; found again where somebody says more meanwhile, for revisions that are read after
+/// that belong to it only if nobody has.
+pub(super) fn by_all_that_is_said<T: PartialEq>(
+    said: impl Fn() -> Result<T, ApiError>,
+    find: impl Fn(&T) -> Result<Value, ApiError>,
 ) -> Result<Value, ApiError> {
-    let mut answers = said()?;
+    let mut known = said()?;
     for _ in 0..ROUNDS {
-        let found = find(&answers)?;
+        let found = find(&known)?;
         let now = said()?;
-        if now == answers {
+        if now == known {
             return Ok(found);
         }
-        answers = now;
+        known = now;
     }
     let sentence = "somebody says more all the time: ask again when that is done";
     Err(ApiError::Conflict(sentence.into(), Map::new()))

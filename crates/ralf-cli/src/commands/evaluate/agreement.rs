@@ -21,7 +21,7 @@ pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool
     refuse_one_store(out, other)?;
     let [first, second] = [out, other].map(|out| Corrections::of_recording(out, recording));
     let (first, second) = (first?, of_dealt(out, other, second?)?);
-    let outcome = say_orphaned(first.orphaned()).and(say_orphaned(second.orphaned()));
+    let outcome = say_orphaned(&first.told_orphaned()).and(say_orphaned(&second.told_orphaned()));
     let agreement = Agreement::of(&first, &second)?;
     if agreement.scans.is_empty() {
         let (first, second) = (first.file().display(), second.file().display());
@@ -35,8 +35,9 @@ pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool
 fn refuse_one_store(out: &Path, other: &Path) -> anyhow::Result<()> {
     let [first, second] = [out, other].map(Corrections::open);
     let (first, second) = (first?, second?);
+    let place = |said: &Corrections| said.file().canonicalize().ok();
     ensure!(
-        first.id()? != second.id()?,
+        first.id()? != second.id()? && place(&first) != place(&second),
         "--agreement: expected what two people said without each other, found one store of corrections twice, or a \
          copy of it: {}, {}",
         first.file().display(),

@@ -7,10 +7,10 @@ use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::LabelledRun;
-use ralf_data::{Recording, SequenceReader};
+use ralf_data::{Corrections, Recording, SequenceReader};
 use ralf_plot::Extent;
-use ralf_report::{AsFarAsRead, Detections, Pictures};
-use std::path::PathBuf;
+use ralf_report::{AsFarAsRead, Detections, Pictures, told_corrections};
+use std::path::{Path, PathBuf};
 
 /// Width of the picture of a scan, and of an overview's half, pixels.
 const WIDTHS: [u32; 2] = [1600, 1400];
@@ -77,6 +77,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     };
     let reader = the_only(&recording)?;
     let labelled = run.sequence(reader)?;
+    say_corrected(&arguments.labels, &reader.sequence().name)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
     let as_read = AsFarAsRead::new(reader);
     let pictures =
@@ -98,6 +99,16 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::done_if(missing.is_empty()))
+}
+
+/// Says where people corrected what is drawn: a picture shows what the program found.
+fn say_corrected(out: &Path, sequence: &str) -> anyhow::Result<()> {
+    let corrections = Corrections::open(out)?.of_scans(|scan| scan.sequence == sequence);
+    if !corrections.is_empty() {
+        let told = told_corrections(&corrections, "not drawn");
+        say(&format!("{}: {told}", corrections.file().display()));
+    }
+    Ok(())
 }
 
 /// Leaves out the sequences that have no labels, of which there is no picture, unless none has any.

@@ -42,11 +42,15 @@ fn a_store_of_the_first_version_loses_nothing() {
     };
     first();
     let before = fs::read(&folder.file).unwrap();
+    let copy = Folder::new();
+    fs::write(&copy.file, &before).unwrap();
     let layer = read_layer(&folder.file).unwrap();
     let reader = Reader::open(&folder.file).unwrap();
     assert_eq!(reader.summaries("00").unwrap().len(), 2);
     assert_eq!(fs::read(&folder.file).unwrap(), before, "reading changes nothing");
     let mut store = Store::open(&folder.file).unwrap();
+    let of_copy = Reader::open(&copy.file).unwrap().id().unwrap();
+    assert_eq!([reader.id().unwrap(), store.id().unwrap()], [of_copy.clone(), of_copy], "copies are known");
     assert_eq!(read_layer(&folder.file).unwrap(), layer);
     let said: Vec<_> =
         layer.iter().map(|(key, said)| (key.scan, said.len(), said[0].corrections.clone())).collect();

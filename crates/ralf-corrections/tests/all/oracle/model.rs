@@ -140,16 +140,35 @@ impl Model {
         first
     }
 
+    /// The places of an author's strokes among those that hold, by steps, the last one first: those of a group belong
+    /// together, whatever lies between them, but for what that was done upon.
+    pub(super) fn steps(&self, author: u8) -> Vec<Vec<usize>> {
+        let all = 0..self.holding.len();
+        let mut left: Vec<usize> = all.rev().filter(|at| self.holding[*at].0.author == author).collect();
+        let done = |at: usize| &self.holding[at].0;
+        let mut steps = Vec::new();
+        while !left.is_empty() {
+            let mut step = vec![left.remove(0)];
+            let mut between = 0;
+            while let Some(group) = done(step[0]).group.filter(|_| between < left.len()) {
+                if done(left[between]).group != Some(group) {
+                    between += 1;
+                } else if left[..between].iter().any(|at| shares(done(*at), done(left[between]))) {
+                    break;
+                } else {
+                    step.push(left.remove(between));
+                }
+            }
+            steps.push(step);
+        }
+        steps
+    }
+
     /// How many corrections changed; `None` is a conflict.
     pub(super) fn undo(&mut self, author: u8) -> Option<usize> {
         let mut rest = self.holding.clone();
         let mut step: Vec<Done> = Vec::new();
-        while let Some(at) = rest.iter().rposition(|(stroke, _)| stroke.author == author) {
-            let goes_on =
-                step.last().is_none_or(|last: &Done| last.group.is_some() && last.group == rest[at].0.group);
-            if !goes_on {
-                break;
-            }
+        for at in self.steps(author).into_iter().next().unwrap_or_default() {
             let (stroke, _) = rest.remove(at);
             if rest[at..].iter().any(|(later, _)| meets(later, &stroke)) {
                 return None;
@@ -199,9 +218,14 @@ impl Model {
 
 /// Whether two strokes are of different people and share a detection, or the mark of a scan.
 fn meets(a: &Done, b: &Done) -> bool {
+    a.author != b.author && shares(a, b)
+}
+
+/// Whether two strokes share a detection, or the mark of a scan.
+fn shares(a: &Done, b: &Done) -> bool {
     let marked = |done: &Done| done.mark.map(|(scan, _, _)| scan);
     let shared = a.changes.keys().any(|place| b.changes.contains_key(place));
-    a.author != b.author && (shared || marked(a).is_some_and(|scan| marked(b) == Some(scan)))
+    shared || marked(a).is_some_and(|scan| marked(b) == Some(scan))
 }
 
 fn set(values: &mut Values, stroke: &Done, to: impl Fn(&(Option<u16>, Option<u16>)) -> Option<u16>) {

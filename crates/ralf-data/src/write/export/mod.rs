@@ -61,7 +61,8 @@ pub struct Exported {
     pub without_labels: Vec<String>,
     /// Scans that `ralf label` could not label, as `sequence/radar/scan`: unlabeled, unless a person has labelled them.
     pub not_labelled: Vec<String>,
-    /// Scans, named like these, of which people said something while they held something else: it is not applied.
+    /// A sentence for each scan of which people said something that is not applied, for it held something else then or
+    /// can't be read.
     pub orphaned: Vec<String>,
     /// Sequences whose times are later in the export than in the recording, and by how much, ns: those with times
     /// before 1970, where the format has none.
@@ -108,7 +109,7 @@ impl Export<'_> {
         let path = &through_link(path);
         let run = LabelledRun::open(self.out)?;
         let corrections = Corrections::of_recording(self.out, self.recording)?;
-        let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
+        let orphaned = corrections.told_orphaned();
         let mut exported = Exported { orphaned, ..Exported::default() };
         let mut sequences = Vec::new();
         for reader in &self.recording.sequences {
