@@ -76,6 +76,10 @@ impl<'a> PointTable<'a> {
             for value in 0..count {
                 let name = if count == 1 { field.name.clone() } else { format!("{}_{value}", field.name) };
                 if !names.insert(name.clone()) {
+                    // Room between the fields, as PCL tells it.
+                    if field.name == "_" {
+                        continue;
+                    }
                     return Err(PointCloudError::new("fields", "unique names", format!("`{name}` twice")));
                 }
                 columns.push(Column { name, offset: offset + value * datatype.size(), datatype });
@@ -226,6 +230,18 @@ mod tests {
             data,
             ..PointCloud2::default()
         }
+    }
+
+    #[test]
+    fn room_between_the_fields_may_be_told_more_than_once() {
+        let mut padded = cloud(false);
+        padded.fields.extend(
+            [2, 13].map(|offset| PointField { count: 2, ..PointField::new("_", offset, Datatype::Uint8) }),
+        );
+        let names = |cloud: &PointCloud2| {
+            PointTable::new(cloud).unwrap().names().map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&padded), ["y", "x", "bits_0", "bits_1", "__0", "__1"]);
     }
 
     #[test]

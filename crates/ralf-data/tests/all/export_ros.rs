@@ -230,7 +230,7 @@ fn messages(file: &Path, keep: impl Fn(&str) -> bool) -> Vec<(String, String, i6
         .messages()
         .iter()
         .filter_map(|message| {
-            let topic = &container.topics()[message.topic()];
+            let topic = &container.topics()[container.topic_of(message)];
             let bytes = || container.read(message).unwrap();
             keep(&topic.name).then(|| (topic.name.clone(), topic.type_name.clone(), message.log_ns, bytes()))
         })

@@ -6,7 +6,7 @@ use super::bag_format::{MAGIC, ParsedFields, op, time_ns};
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
-use super::decompress::Compression;
+use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::Stop;
 use super::records::RecordFile;
 use crate::encoding::{Decoder, Encoding, EncodingError};
@@ -48,7 +48,7 @@ impl Format for Bag {
         skip_data(file)?;
         let mut described = 0;
         while !file.is_at_end() {
-            described += usize::from(record(file, catalogue)? == op::CHUNK_INFO);
+            described += usize::from(record(file, index_position == 0, catalogue)? == op::CHUNK_INFO);
         }
         let found = [catalogue.channels.len(), described];
         if index_position == 0 {
@@ -94,13 +94,13 @@ impl Format for Bag {
     }
 }
 
-/// Looks at the next record, and tells its kind.
-fn record(file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<u8, Stop> {
+/// Looks at the next record, and tells its kind; of a bag that is open, for it was never closed.
+fn record(file: &mut RecordFile, is_open: bool, catalogue: &mut Catalogue) -> Result<u8, Stop> {
     let header = record_header(file)?;
     let header = ParsedFields::parse(&header).map_err(|error| moved(error, file))?;
     let kind = header.op().map_err(|error| moved(error, file))?;
     match kind {
-        op::CHUNK => chunk(file, &header, catalogue)?,
+        op::CHUNK => chunk(file, &header, is_open, catalogue)?,
         op::INDEX => index(file, &header, catalogue)?,
         op::CONNECTION => {
             let length = data_length(file)?;
@@ -116,20 +116,29 @@ fn record(file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<u8, Stop> 
     Ok(kind)
 }
 
-fn chunk(file: &mut RecordFile, header: &ParsedFields<'_>, catalogue: &mut Catalogue) -> Result<(), Stop> {
+fn chunk(
+    file: &mut RecordFile,
+    header: &ParsedFields<'_>,
+    is_open: bool,
+    catalogue: &mut Catalogue,
+) -> Result<(), Stop> {
     let name = header.text("compression")?;
     let compression = Compression::named(name).ok_or_else(|| {
         Stop::Refused(file.error("a chunk compressed by none, bz2 or lz4", format!("`{name}`")))
     })?;
-    let size = u64::from(header.u32("size")?);
-    let stored = data_length(file)?;
+    let (mut size, mut stored) = (u64::from(header.u32("size")?), data_length(file)?);
+    // Recorders tell how long a chunk is when they have written it: that which they were killed in is all the rest.
+    let is_unfinished = is_open && size == 0 && stored == 0;
+    if is_unfinished {
+        (size, stored) = (CHUNK_BYTES, file.left());
+    }
     let place = ChunkPlace {
         position: file.position(),
         stored: stored.min(file.left()),
         size,
         compression,
         crc: 0,
-        cut: stored > file.left(),
+        cut: is_unfinished || stored > file.left(),
     };
     catalogue.add_chunk(place);
     file.skip(stored)
@@ -159,6 +168,8 @@ fn add_connection(
     catalogue: &mut Catalogue,
 ) -> Result<(), EncodingError> {
     let connection = ParsedFields::parse(data)?;
+    let latched = connection.text("latching").is_ok_and(|latching| latching == "1");
+    let publisher = connection.text("callerid").ok().filter(|_| latched).unwrap_or_default();
     let channel = Channel {
         topic: header.text("topic")?.to_owned(),
         type_name: connection.text("type")?.to_owned(),
@@ -167,8 +178,9 @@ fn add_connection(
             encoding: "ros1msg".to_owned(),
             text: connection.text("message_definition").unwrap_or_default().into(),
             md5: connection.text("md5sum").unwrap_or_default().to_owned(),
-            latched: connection.text("latching").is_ok_and(|latching| latching == "1"),
         },
+        latched,
+        publisher: publisher.to_owned(),
     };
     catalogue.channels.insert(header.u32("conn")?, channel);
     Ok(())
@@ -197,4 +209,56 @@ fn data_length(file: &mut RecordFile) -> Result<u64, Stop> {
 /// An error inside a record, as one at the place in the file after it.
 fn moved(error: EncodingError, file: &RecordFile) -> EncodingError {
     file.error(error.expected, error.found)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::container::Container;
+    use crate::container::bag_format::{Fields, MAGIC, op};
+
+    /// As `rosbag record` leaves `drive.bag.active`: it tells a chunk's length, and where the index is, at its end.
+    #[test]
+    fn a_recorder_that_was_killed_leaves_its_last_chunk_to_be_read() {
+        let header = Fields::default()
+            .with("op", &[op::BAG_HEADER])
+            .with("index_pos", &0u64.to_le_bytes())
+            .with("conn_count", &0u32.to_le_bytes())
+            .with("chunk_count", &0u32.to_le_bytes());
+        let conn = 0u32.to_le_bytes();
+        let connection = Fields::default().with("op", &[op::CONNECTION]).with("conn", &conn);
+        let told = Fields::default().with("topic", b"/a").with("type", b"std_msgs/Int8").with("md5sum", b"1");
+        let message = |second: u8| {
+            let fields = Fields::default().with("op", &[op::MESSAGE]).with("conn", &conn);
+            fields.with("time", &[second, 0, 0, 0, 0, 0, 0, 0]).record(&[second])
+        };
+        let data = [
+            connection.with("topic", b"/a").record(told.bytes()),
+            message(1),
+            message(2),
+            message(3)[..20].to_vec(),
+        ]
+        .concat();
+        let compressed = lz4(&data);
+        let folder = tempfile::tempdir().unwrap();
+        for (name, data) in [("none", &data), ("lz4", &compressed)] {
+            let chunk = Fields::default()
+                .with("op", &[op::CHUNK])
+                .with("compression", name.as_bytes())
+                .with("size", &0u32.to_le_bytes());
+            let file = folder.path().join(name);
+            std::fs::write(&file, [MAGIC, &header.record(&[b' '; 64]), &chunk.record(&[]), data].concat())
+                .unwrap();
+            let container = Container::open(&file).unwrap();
+            let seconds = container.messages().iter().map(|message| container.read(message).unwrap());
+            assert_eq!(seconds.collect::<Vec<_>>(), [[1], [2]], "{name}: {:?}", container.losses());
+            assert!(container.losses().iter().all(|loss| !loss.hides_messages), "{:?}", container.losses());
+        }
+    }
+
+    fn lz4(bytes: &[u8]) -> Vec<u8> {
+        use std::io::Write;
+        let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    }
 }

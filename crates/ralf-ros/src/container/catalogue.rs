@@ -1,7 +1,8 @@
 //! What a file holds, as far as it was read: channels, messages, chunks.
 
-use super::Schema;
 use super::chunks::ChunkPlace;
+use super::{Schema, Topic};
+use crate::encoding::Encoding;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Where a message lies.
@@ -11,28 +12,48 @@ pub struct MessageRef {
     pub log_ns: i64,
     /// A number that its file gives it.
     pub(super) place: u64,
-    /// Its place in the list of topics.
-    pub(super) topic: u32,
+    /// Its place in the list of channels.
+    pub(super) channel: u32,
     /// Its place in the list of files.
     pub(super) file: u32,
 }
 
 impl MessageRef {
-    /// Its topic's place in the list of topics.
-    pub fn topic(&self) -> usize {
-        self.topic as usize
+    /// Its channel's place in the list of channels.
+    pub fn channel(&self) -> usize {
+        self.channel as usize
     }
 }
 
-/// What a recorder knows of the messages of a channel. A topic has one for each of its publishers.
+/// What a recorder knows of messages of a topic that have one definition and reach the same listeners. A topic has
+/// several where its type changed, or where several publishers have messages for those who come later.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Channel {
-    pub(super) topic: String,
-    pub(super) type_name: String,
+pub struct Channel {
+    /// The topic's name.
+    pub topic: String,
+    /// As the file spells it.
+    pub type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
-    pub(super) encoding: String,
+    pub encoding: String,
     /// What its type is made of.
-    pub(super) schema: Schema,
+    pub schema: Schema,
+    /// Whether messages are also for those who come later.
+    pub latched: bool,
+    /// The node of ROS 1 whose messages these are, where they are also for those who come later: who comes later gets
+    /// the last message of each. Empty elsewhere.
+    pub publisher: String,
+}
+
+impl Channel {
+    /// How its messages are written, if this program can read them.
+    pub fn known_encoding(&self) -> Option<Encoding> {
+        Encoding::named(&self.encoding)
+    }
+
+    /// Whether both are of one topic.
+    pub(super) fn is_of(&self, topic: &Topic) -> bool {
+        (&self.topic, &self.type_name, &self.encoding) == (&topic.name, &topic.type_name, &topic.encoding)
+    }
 }
 
 #[derive(Debug, Default)]
@@ -40,11 +61,13 @@ pub(super) struct Catalogue {
     pub(super) channels: BTreeMap<u32, Channel>,
     /// Names of types, by the numbers that channels of MCAP have for them.
     pub(super) schemas: BTreeMap<u16, (String, Schema)>,
-    /// In these the topic is still the number of the channel.
+    /// In these the channel is still the file's own number for it.
     pub(super) messages: Vec<MessageRef>,
     /// The same of those that lie in no chunk.
     pub(super) outside: Vec<MessageRef>,
     pub(super) chunks: Vec<ChunkPlace>,
+    /// Files and records of metadata beside the messages.
+    pub(super) attached: usize,
     /// How many messages there were when each chunk began: what tells those without an index.
     pub(super) messages_before: Vec<usize>,
 }
@@ -86,7 +109,7 @@ impl Catalogue {
 
     pub(super) fn add_message(&mut self, channel: u32, log_ns: i64, place: Place) {
         let messages = if matches!(place, Place::File(_)) { &mut self.outside } else { &mut self.messages };
-        messages.push(MessageRef { log_ns, place: place.packed(), topic: channel, file: 0 });
+        messages.push(MessageRef { log_ns, place: place.packed(), channel, file: 0 });
     }
 
     /// The number of the chunk that was added last, to which an index belongs.
@@ -110,6 +133,6 @@ impl Catalogue {
 
     /// The channels of all messages.
     pub(super) fn channels_in_use(&self) -> BTreeSet<u32> {
-        self.messages.iter().chain(&self.outside).map(|message| message.topic).collect()
+        self.messages.iter().chain(&self.outside).map(|message| message.channel).collect()
     }
 }

@@ -36,7 +36,7 @@ impl Db3File {
         let rows = "SELECT id, topic_id, timestamp FROM messages ORDER BY id";
         let read = for_each_row(&connection, rows, |row| {
             let place = row.get::<_, i64>(0)?.cast_unsigned();
-            messages.push(MessageRef { log_ns: row.get(2)?, place, topic: row.get(1)?, file: 0 });
+            messages.push(MessageRef { log_ns: row.get(2)?, place, channel: row.get(1)?, file: 0 });
             Ok(())
         });
         match read {
@@ -81,7 +81,7 @@ fn channels(connection: &Connection) -> rusqlite::Result<BTreeMap<u32, Channel>>
         let schema = definitions.get(&type_name).cloned().unwrap_or_default();
         channels.insert(
             row.get(0)?,
-            Channel { topic, type_name, encoding, schema: Schema { latched, ..schema } },
+            Channel { topic, type_name, encoding, schema, latched, publisher: String::new() },
         );
         Ok(())
     })?;
@@ -106,7 +106,7 @@ fn definitions(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Sch
 
 /// Whether messages are also for those who come later: as the recorder was offered them, or where it doesn't tell, as
 /// every static frame is.
-fn is_latched(topic: &str, offered: &str) -> bool {
+pub(super) fn is_latched(topic: &str, offered: &str) -> bool {
     if !offered.contains("durability") {
         return topic.ends_with("/tf_static");
     }

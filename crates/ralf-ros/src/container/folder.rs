@@ -2,6 +2,7 @@
 
 use super::error::ContainerError;
 use super::loss::Loss;
+use super::recognises;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +42,19 @@ pub(super) fn files(folder: &Path, losses: &mut Vec<Loss>) -> Result<Vec<PathBuf
         let expected = "files that are there";
         return Err(ContainerError::content(&metadata, "relative_file_paths", expected, "none of them"));
     }
-    Ok(files)
+    Ok(without_unwritten(files, losses))
+}
+
+/// Those that were begun: where the power went just after another file, a last one is there and holds nothing. What is
+/// wrong with a recording that has no other is told when it's opened.
+fn without_unwritten(files: Vec<PathBuf>, losses: &mut Vec<Loss>) -> Vec<PathBuf> {
+    if !files.iter().any(|file| recognises(file)) {
+        return files;
+    }
+    let (begun, others): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|file| recognises(file));
+    let told = |file: PathBuf| Loss::hiding(format!("{}: holds no beginning of a recording", file.display()));
+    losses.extend(others.into_iter().map(told));
+    begun
 }
 
 /// The entries of the list `relative_file_paths`, each on a line of its own, as every recorder writes it.
@@ -69,6 +82,22 @@ mod tests {
         let mut losses = Vec::new();
         assert_eq!(files(folder.path(), &mut losses).unwrap(), [folder.path().join("drive_1.db3")]);
         assert!(losses.len() == 1 && losses[0].sentence.contains("drive_0.db3 is not there"), "{losses:?}");
+    }
+
+    #[test]
+    fn a_file_that_was_not_begun_is_told_and_the_others_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(METADATA), TEXT).unwrap();
+        let [first, second] = ["drive_0.db3", "drive_1.db3"].map(|name| folder.path().join(name));
+        fs::write(&first, crate::container::db3::MAGIC).unwrap();
+        for begun in ["", "SQLi"] {
+            fs::write(&second, begun).unwrap();
+            let mut losses = Vec::new();
+            assert_eq!(files(folder.path(), &mut losses).unwrap(), std::slice::from_ref(&first));
+            assert!(
+                losses[0].hides_messages && losses[0].sentence.contains("drive_1.db3: holds no beginning")
+            );
+        }
     }
 
     #[test]

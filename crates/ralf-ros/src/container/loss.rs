@@ -1,5 +1,6 @@
 //! What of a recording could not be read.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A part of a recording that could not be read.
@@ -15,6 +16,21 @@ impl Loss {
     /// A part that may have held messages.
     pub(super) fn hiding(sentence: impl Into<String>) -> Self {
         Self { sentence: sentence.into(), hides_messages: true }
+    }
+
+    /// Each once: a chunk is looked into for its channels, and for its messages where no index tells of them.
+    pub(super) fn once(losses: Vec<Self>) -> Vec<Self> {
+        let (mut once, mut places): (Vec<Self>, BTreeMap<String, usize>) = (Vec::new(), BTreeMap::new());
+        for loss in losses {
+            match places.get(&loss.sentence) {
+                Some(place) => once[*place].hides_messages |= loss.hides_messages,
+                None => {
+                    places.insert(loss.sentence.clone(), once.len());
+                    once.push(loss);
+                }
+            }
+        }
+        once
     }
 }
 

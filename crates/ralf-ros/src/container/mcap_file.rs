@@ -5,12 +5,14 @@ use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
+use super::db3::is_latched;
 use super::decompress::Compression;
 use super::error::Stop;
 use super::records::RecordFile;
 use crate::encoding::{Decoder, Encoding, EncodingError};
 use mcap::MAGIC;
 use mcap::records::op;
+use std::collections::BTreeMap;
 
 /// The kind that no record has: zeros are no record.
 const NO_OP: u8 = 0;
@@ -20,9 +22,6 @@ const PREFIX_BYTES: usize = 9;
 
 /// What the last record holds: where the summary begins, where a part of it begins, its checksum.
 const FOOTER_BYTES: u64 = 20;
-
-/// What the quality of service says of topics that are also for those who come later: as ROS 2 writes it, and wrote it.
-const LATCHED: [&str; 2] = ["durability: transient_local\n", "durability: 1\n"];
 
 #[derive(Debug, Default)]
 pub(super) struct Mcap;
@@ -63,6 +62,10 @@ impl Format for Mcap {
                     let (channel, log_ns) = message_head(&head)?;
                     file.skip(length.saturating_sub(MESSAGE_HEAD_BYTES))?;
                     catalogue.add_message(channel, log_ns, Place::File(start));
+                }
+                op::ATTACHMENT | op::METADATA => {
+                    catalogue.attached += 1;
+                    file.skip(length)?;
                 }
                 op::FOOTER => {
                     file.skip(length)?;
@@ -160,25 +163,38 @@ fn schema(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), En
 fn channel(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), EncodingError> {
     let (id, schema_id) = (decoder.u16()?, decoder.u16()?);
     let (topic, encoding) = (decoder.string()?, decoder.string()?);
-    let latched = is_latched(decoder.bytes()?)?;
+    let told = Told::of(decoder.bytes()?, &topic)?;
     // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met again.
     let known = catalogue.schemas.get(&schema_id).cloned();
     if let Some((type_name, mut schema)) = known.or_else(|| (schema_id == 0).then(Default::default)) {
-        schema.latched = latched;
-        catalogue.channels.insert(u32::from(id), Channel { topic, type_name, encoding, schema });
+        let Told { latched, publisher, md5 } = told;
+        schema.md5 = md5;
+        let channel = Channel { topic, type_name, encoding, schema, latched, publisher };
+        catalogue.channels.insert(u32::from(id), channel);
     }
     Ok(())
 }
 
-/// Whether a channel's metadata, pairs of texts, say that its messages are also for those who come later.
-fn is_latched(metadata: &[u8]) -> Result<bool, EncodingError> {
-    let mut decoder = Decoder::new(Encoding::Ros1, metadata)?;
-    let mut is_latched = false;
-    while !decoder.is_at_end() {
-        let (key, value) = (decoder.string()?, decoder.string()?);
-        is_latched |= key == "offered_qos_profiles" && LATCHED.iter().any(|latched| value.contains(latched));
+/// What a channel's metadata tell, pairs of texts. Those of ROS 1 have what a bag's connections have.
+struct Told {
+    latched: bool,
+    publisher: String,
+    md5: String,
+}
+
+impl Told {
+    fn of(metadata: &[u8], topic: &str) -> Result<Self, EncodingError> {
+        let mut decoder = Decoder::new(Encoding::Ros1, metadata)?;
+        let mut told = BTreeMap::new();
+        while !decoder.is_at_end() {
+            told.insert(decoder.string()?, decoder.string()?);
+        }
+        let mut text = |key| told.remove(key).unwrap_or_default();
+        let (offered, latching) = (text("offered_qos_profiles"), text("latching"));
+        let latched = if latching.is_empty() { is_latched(topic, &offered) } else { latching == "1" };
+        let publisher = Some(text("callerid")).filter(|_| latched).unwrap_or_default();
+        Ok(Self { latched, publisher, md5: text("md5sum") })
     }
-    Ok(is_latched)
 }
 
 fn message_index(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), EncodingError> {

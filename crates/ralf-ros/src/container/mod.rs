@@ -21,8 +21,8 @@ mod mcap_file;
 mod records;
 
 use bag::Bag;
-pub use catalogue::MessageRef;
-use catalogue::{Catalogue, Channel};
+use catalogue::Catalogue;
+pub use catalogue::{Channel, MessageRef};
 use chunked::{ChunkedFile, Format};
 use db3::Db3File;
 pub use error::ContainerError;
@@ -44,8 +44,6 @@ pub struct Topic {
     pub type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
     pub encoding: String,
-    /// What its type is made of.
-    pub schema: Schema,
     /// How many messages it has.
     pub count: usize,
 }
@@ -59,18 +57,12 @@ pub struct Schema {
     pub text: Vec<u8>,
     /// The checksum by which ROS 1 tells versions of a type apart; empty elsewhere.
     pub md5: String,
-    /// Whether messages are also for those who come later.
-    pub latched: bool,
 }
 
 impl Topic {
     /// How its messages are written, if this program can read them.
     pub fn known_encoding(&self) -> Option<Encoding> {
-        match self.encoding.as_str() {
-            "ros1" => Some(Encoding::Ros1),
-            "cdr" => Some(Encoding::Cdr),
-            _ => None,
-        }
+        Encoding::named(&self.encoding)
     }
 }
 
@@ -80,8 +72,12 @@ pub struct Container {
     files: Vec<PathBuf>,
     parts: Vec<Part>,
     topics: Vec<Topic>,
+    channels: Vec<Channel>,
+    /// The place of each channel's topic.
+    topic_of: Vec<u32>,
     messages: Vec<MessageRef>,
     losses: Vec<Loss>,
+    attached: usize,
 }
 
 #[derive(Debug)]
@@ -113,12 +109,14 @@ impl Container {
     pub fn open(path: &Path) -> Result<Self, ContainerError> {
         let mut losses = Vec::new();
         let files = if path.is_dir() { folder::files(path, &mut losses)? } else { vec![path.to_owned()] };
-        let (parts, topics, messages) = (Vec::new(), Vec::new(), Vec::new());
-        let mut container = Self { files, parts, topics, messages, losses };
+        let (parts, topics, channels) = (Vec::new(), Vec::new(), Vec::new());
+        let (topic_of, messages) = (Vec::new(), Vec::new());
+        let mut container = Self { files, parts, topics, channels, topic_of, messages, losses, attached: 0 };
         for file in 0..container.files.len() {
             container.add(file)?;
         }
         container.sort();
+        container.losses = Loss::once(std::mem::take(&mut container.losses));
         Ok(container)
     }
 
@@ -132,9 +130,24 @@ impl Container {
         &self.topics
     }
 
+    /// In the order of their topics' names: what a copy is made of.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The place of a message's topic in the list of topics.
+    pub fn topic_of(&self, message: &MessageRef) -> usize {
+        self.topic_of[message.channel()] as usize
+    }
+
     /// In the order of the files: those that follow each other are read the fastest.
     pub fn messages(&self) -> &[MessageRef] {
         &self.messages
+    }
+
+    /// How many files and records of metadata an MCAP file holds beside its messages.
+    pub fn attached(&self) -> usize {
+        self.attached
     }
 
     /// What could not be read.
@@ -148,7 +161,7 @@ impl Container {
             Part::Chunked(file) => file.read(message),
             Part::Db3(file) => file.read(message),
         }?;
-        let topic = &self.topics[message.topic()];
+        let topic = &self.topics[self.topic_of(message)];
         if topic.known_encoding() != Some(Encoding::Cdr) {
             return Ok(stored);
         }
@@ -177,18 +190,19 @@ impl Container {
         Ok(())
     }
 
-    /// Takes over a file's messages, with the topics of their channels.
+    /// Takes over a file's messages, with their channels.
     fn adopt(&mut self, file: u32, catalogue: Catalogue) {
-        let topics: BTreeMap<u32, u32> =
-            catalogue.channels.iter().map(|(channel, known)| (*channel, self.topic(known))).collect();
+        self.attached += catalogue.attached;
+        let channels: BTreeMap<u32, u32> =
+            catalogue.channels.into_iter().map(|(number, known)| (number, self.channel(known))).collect();
         let mut messages = catalogue.messages;
         messages.extend(catalogue.outside);
         messages.sort_by_key(|message| message.place);
         let found = messages.len();
         messages.retain_mut(|message| {
-            let Some(topic) = topics.get(&message.topic) else { return false };
-            (message.topic, message.file) = (*topic, file);
-            self.topics[*topic as usize].count += 1;
+            let Some(channel) = channels.get(&message.channel) else { return false };
+            (message.channel, message.file) = (*channel, file);
+            self.topics[self.topic_of[*channel as usize] as usize].count += 1;
             true
         });
         if messages.len() < found {
@@ -199,28 +213,33 @@ impl Container {
         self.messages.extend(messages);
     }
 
-    /// The topic of a channel, new or known from another channel or file.
-    fn topic(&mut self, channel: &Channel) -> u32 {
-        let same = |topic: &Topic| {
-            (&topic.name, &topic.type_name, &topic.encoding)
-                == (&channel.topic, &channel.type_name, &channel.encoding)
-        };
-        let known = self.topics.iter().position(same).unwrap_or_else(|| {
-            let Channel { topic, type_name, encoding, schema } = channel.clone();
-            self.topics.push(Topic { name: topic, type_name, encoding, schema, count: 0 });
+    /// The place of a channel, new or known from another publisher or file.
+    fn channel(&mut self, channel: Channel) -> u32 {
+        if let Some(known) = self.channels.iter().position(|known| *known == channel) {
+            return known as u32;
+        }
+        let topic = self.topics.iter().position(|topic| channel.is_of(topic)).unwrap_or_else(|| {
+            let Channel { topic, type_name, encoding, .. } = channel.clone();
+            self.topics.push(Topic { name: topic, type_name, encoding, count: 0 });
             self.topics.len() - 1
         });
-        known as u32
+        self.topic_of.push(topic as u32);
+        self.channels.push(channel);
+        self.channels.len() as u32 - 1
     }
 
-    /// Topics by name, and the messages' numbers of them accordingly.
+    /// Topics and their channels by name, and the channels' numbers in messages accordingly.
     fn sort(&mut self) {
-        let mut order: Vec<usize> = (0..self.topics.len()).collect();
-        let key = |topic: &Topic| (topic.name.clone(), topic.type_name.clone(), topic.encoding.clone());
-        order.sort_by_key(|topic| key(&self.topics[*topic]));
+        self.topics
+            .sort_by_key(|topic| (topic.name.clone(), topic.type_name.clone(), topic.encoding.clone()));
+        let topic_of = |channel: &Channel| self.topics.iter().position(|topic| channel.is_of(topic));
+        let mut order: Vec<(usize, usize)> =
+            self.channels.iter().map(|channel| topic_of(channel).unwrap_or_default()).zip(0..).collect();
+        order.sort_unstable();
         let mut rank = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(place, topic)| rank[*topic] = place as u32);
-        self.messages.iter_mut().for_each(|message| message.topic = rank[message.topic as usize]);
-        self.topics = order.iter().map(|topic| self.topics[*topic].clone()).collect();
+        order.iter().enumerate().for_each(|(place, (_, channel))| rank[*channel] = place as u32);
+        self.messages.iter_mut().for_each(|message| message.channel = rank[message.channel()]);
+        self.topic_of = order.iter().map(|(topic, _)| *topic as u32).collect();
+        self.channels = order.iter().map(|(_, channel)| self.channels[*channel].clone()).collect();
     }
 }

@@ -38,6 +38,17 @@ pub struct EncodingError {
     pub found: String,
 }
 
+impl Encoding {
+    /// By the name that recordings have for it; `None` of what this program can't read.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        match name {
+            "ros1" => Some(Self::Ros1),
+            "cdr" => Some(Self::Cdr),
+            _ => None,
+        }
+    }
+}
+
 impl EncodingError {
     pub(crate) fn new(position: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self { position, expected: expected.into(), found: found.into() }

@@ -46,7 +46,7 @@ impl<W: Write + Seek> BagWriter<W> {
         Ok(bag)
     }
 
-    pub(super) fn add_topic(&mut self, name: &str, described: &Described, delivery: Delivery) -> u32 {
+    pub(super) fn add_topic(&mut self, name: &str, described: &Described) -> u32 {
         let id = self.connections.len() as u32;
         let header = Fields::default().with("op", &[op::CONNECTION]).with("conn", &id.to_le_bytes());
         let mut data = Fields::default()
@@ -54,8 +54,11 @@ impl<W: Write + Seek> BagWriter<W> {
             .with("type", described.type_name.as_bytes())
             .with("md5sum", described.schema.md5.as_bytes())
             .with("message_definition", &described.schema.text);
-        if delivery == Delivery::Latched {
+        if described.delivery == Delivery::Latched {
             data = data.with("latching", b"1");
+        }
+        if !described.publisher.is_empty() {
+            data = data.with("callerid", described.publisher.as_bytes());
         }
         let record = header.with("topic", name.as_bytes()).record(data.bytes());
         self.connections.push(Connection { record, written: false });

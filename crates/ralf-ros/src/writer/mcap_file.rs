@@ -22,15 +22,13 @@ impl<W: Write + Seek> McapWriter<W> {
         Ok(Self { writer: options.create(file)?, counts: BTreeMap::new() })
     }
 
-    pub(super) fn add_topic(
-        &mut self,
-        name: &str,
-        described: &Described,
-        delivery: Delivery,
-    ) -> Result<u32, WriteError> {
-        let Described { type_name, encoding, schema } = described;
-        let schema = self.writer.add_schema(type_name, &schema.encoding, &schema.text)?;
-        let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), quality_of_service(delivery))]);
+    pub(super) fn add_topic(&mut self, name: &str, described: &Described) -> Result<u32, WriteError> {
+        let Described { type_name, encoding, schema, delivery, .. } = described;
+        // What has no schema has none in a copy: readers of JSON refuse one in no language.
+        let has_schema = !(type_name.is_empty() && schema.encoding.is_empty() && schema.text.is_empty());
+        let schema =
+            if has_schema { self.writer.add_schema(type_name, &schema.encoding, &schema.text)? } else { 0 };
+        let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), quality_of_service(*delivery))]);
         Ok(u32::from(self.writer.add_channel(schema, name, encoding, &metadata)?))
     }
 

@@ -3,7 +3,7 @@
 mod bag;
 mod mcap_file;
 
-use crate::container::{self, Schema};
+use crate::container::{Channel, Schema};
 use crate::encoding::{Encoding, EncodingError};
 use crate::message::{DEFINITIONS, Definition, Message};
 use bag::BagWriter;
@@ -65,7 +65,7 @@ pub struct Topic<M> {
     of: PhantomData<fn(M)>,
 }
 
-/// A topic whose messages are copied from another recording.
+/// A channel whose messages are copied from another recording.
 #[derive(Debug)]
 pub struct RawTopic {
     id: u32,
@@ -77,33 +77,38 @@ struct Described {
     /// How the messages are written.
     encoding: String,
     schema: Schema,
+    delivery: Delivery,
+    /// The node of ROS 1 that sent them; empty where that doesn't matter.
+    publisher: String,
 }
 
 impl Described {
-    fn known(definition: &Definition, encoding: Encoding) -> Self {
+    fn known(definition: &Definition, encoding: Encoding, delivery: Delivery) -> Self {
         let (name, language) = match encoding {
             Encoding::Ros1 => ("ros1", "ros1msg"),
             Encoding::Cdr => ("cdr", "ros2msg"),
         };
         let text = definition.text(encoding).into_bytes();
-        let (md5, latched) = (definition.md5.to_owned(), false);
-        let schema = Schema { encoding: language.to_owned(), text, md5, latched };
-        Self { type_name: definition.type_name(encoding), encoding: name.to_owned(), schema }
+        let schema = Schema { encoding: language.to_owned(), text, md5: definition.md5.to_owned() };
+        let (type_name, encoding) = (definition.type_name(encoding), name.to_owned());
+        Self { type_name, encoding, schema, delivery, publisher: String::new() }
     }
 }
 
-impl From<&container::Topic> for Described {
+impl From<&Channel> for Described {
     /// Where the recording doesn't tell what a type is made of, but this program knows, it does.
-    fn from(topic: &container::Topic) -> Self {
-        let known = DEFINITIONS.into_iter().find(|definition| definition.is(&topic.type_name));
-        let known = known.zip(topic.known_encoding()).map(|(known, encoding)| Self::known(known, encoding));
-        let (type_name, encoding) = (topic.type_name.clone(), topic.encoding.clone());
-        let schema = match (known, topic.schema.clone()) {
-            (Some(known), schema) if schema.text.is_empty() => known.schema,
-            (Some(known), schema) if schema.md5.is_empty() => Schema { md5: known.schema.md5, ..schema },
-            (_, schema) => schema,
+    fn from(channel: &Channel) -> Self {
+        let delivery = if channel.latched { Delivery::Latched } else { Delivery::Live };
+        let known = DEFINITIONS.into_iter().find(|definition| definition.is(&channel.type_name));
+        let known = known.zip(channel.known_encoding());
+        let known = known.map(|(known, encoding)| Self::known(known, encoding, delivery).schema);
+        let Channel { type_name, encoding, schema, publisher, .. } = channel.clone();
+        let schema = match known {
+            Some(known) if schema.text.is_empty() => known,
+            Some(known) if schema.md5.is_empty() => Schema { md5: known.md5, ..schema },
+            _ => schema,
         };
-        Self { type_name, encoding, schema }
+        Self { type_name, encoding, schema, delivery, publisher }
     }
 }
 
@@ -132,31 +137,30 @@ impl<W: Write + Seek> MessageWriter<W> {
     pub fn topic<M: Message>(&mut self, name: &str, delivery: Delivery) -> Result<Topic<M>, WriteError> {
         let id = match &mut self.container {
             Container::Bag(bag) => {
-                bag.add_topic(name, &Described::known(M::DEFINITION, Encoding::Ros1), delivery)
+                bag.add_topic(name, &Described::known(M::DEFINITION, Encoding::Ros1, delivery))
             }
             Container::Mcap(mcap) => {
-                mcap.add_topic(name, &Described::known(M::DEFINITION, Encoding::Cdr), delivery)?
+                mcap.add_topic(name, &Described::known(M::DEFINITION, Encoding::Cdr, delivery))?
             }
         };
         Ok(Topic { id, name: name.to_owned(), of: PhantomData })
     }
 
-    /// Whether the messages of another recording's topic can be written as they are: a bag holds the encoding of ROS 1
-    /// alone, with a checksum, and a file of the profile `ros2` everything else.
-    pub fn can_copy(&self, topic: &container::Topic) -> bool {
-        let is_ros1 = topic.known_encoding() == Some(Encoding::Ros1);
+    /// Whether the messages of another recording's channel can be written as they are: a bag holds the encoding of ROS
+    /// 1 alone, with a checksum, and a file of the profile `ros2` everything else.
+    pub fn can_copy(&self, channel: &Channel) -> bool {
+        let is_ros1 = channel.known_encoding() == Some(Encoding::Ros1);
         match &self.container {
-            Container::Bag(_) => is_ros1 && !Described::from(topic).schema.md5.is_empty(),
+            Container::Bag(_) => is_ros1 && !Described::from(channel).schema.md5.is_empty(),
             Container::Mcap(_) => !is_ros1,
         }
     }
 
-    /// Adds a topic of another recording, one that [can be copied](Self::can_copy).
-    pub fn raw_topic(&mut self, topic: &container::Topic) -> Result<RawTopic, WriteError> {
-        let delivery = if topic.schema.latched { Delivery::Latched } else { Delivery::Live };
+    /// Adds a channel of another recording, one that [can be copied](Self::can_copy).
+    pub fn raw_topic(&mut self, channel: &Channel) -> Result<RawTopic, WriteError> {
         let id = match &mut self.container {
-            Container::Bag(bag) => bag.add_topic(&topic.name, &topic.into(), delivery),
-            Container::Mcap(mcap) => mcap.add_topic(&topic.name, &topic.into(), delivery)?,
+            Container::Bag(bag) => bag.add_topic(&channel.topic, &channel.into()),
+            Container::Mcap(mcap) => mcap.add_topic(&channel.topic, &channel.into())?,
         };
         Ok(RawTopic { id })
     }
@@ -180,7 +184,8 @@ impl<W: Write + Seek> MessageWriter<W> {
             .to_bytes(self.encoding())
             .map_err(|error| WriteError::Message { topic: topic.name.clone(), error })?;
         match &mut self.container {
-            Container::Bag(bag) => bag.write(topic.id, log_ns, &bytes),
+            // Readers of bags begin at 1 ns, and pass over what is earlier.
+            Container::Bag(bag) => bag.write(topic.id, if log_ns == 0 { 1 } else { log_ns }, &bytes),
             Container::Mcap(mcap) => mcap.write(topic.id, log_ns, &bytes),
         }
     }

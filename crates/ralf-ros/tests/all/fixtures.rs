@@ -32,7 +32,7 @@ fn read<M: Message>(container: &Container, name: &str) -> Vec<M> {
     let topic = &container.topics()[place];
     assert!(M::DEFINITION.is(&topic.type_name), "{name}: {}", topic.type_name);
     let encoding = topic.known_encoding().unwrap();
-    let messages = container.messages().iter().filter(|message| message.topic() == place);
+    let messages = container.messages().iter().filter(|message| container.topic_of(message) == place);
     let decoded: Vec<M> =
         messages.map(|message| M::from_bytes(encoding, &container.read(message).unwrap()).unwrap()).collect();
     assert_eq!(decoded.len(), topic.count);

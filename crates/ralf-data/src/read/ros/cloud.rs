@@ -91,8 +91,7 @@ pub(super) fn lidar_scan(
             messages.error(message, "fields", format!("a field `{name}`"), found)
         })
     };
-    let [x, y, z] = [column("x")?, column("y")?, column("z")?];
-    let points: Vec<[f32; 3]> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
+    let points = points([column("x")?, column("y")?, column("z")?]);
     let intensity = table.column("intensity").unwrap_or_else(|| vec![0.0; points.len()]);
     let wrong = |(n, expected, found): (usize, String, String)| {
         messages.error(message, &format!("point {n}, times"), expected, found)
@@ -104,7 +103,13 @@ pub(super) fn lidar_scan(
 /// What one scan of a LiDAR says of how its points tell their times.
 pub(super) fn point_clock(messages: &Messages, message: &MessageRef, t_ns: i64) -> Result<Told, DataError> {
     let cloud: PointCloud2 = messages.decode(message)?;
-    Ok(PointClock::find(&table(messages, message, &cloud)?, t_ns))
+    let table = table(messages, message, &cloud)?;
+    let places = ["x", "y", "z"].map(|name| table.column(name).unwrap_or_default());
+    Ok(PointClock::find(&table, &points(places), t_ns))
+}
+
+fn points([x, y, z]: [Vec<f32>; 3]) -> Vec<[f32; 3]> {
+    x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect()
 }
 
 impl Columns {

@@ -11,7 +11,7 @@ use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
 use crate::tree::GROUND_TRUTH;
 use ralf::sensors::Elevation;
 use ralf_ros::container::Topic;
-use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
+use ralf_ros::message::{CameraInfo, Definition, Message, PointCloud2, RadarScan};
 use serde::Serialize;
 use std::path::Path;
 
@@ -58,7 +58,16 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
     let mut of_world = Vec::new();
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
-    for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
+    // One of two spellings of a type is enough to name a topic.
+    let is_again = |place: usize| {
+        let before = &topics[..place];
+        before.iter().any(|known| {
+            usable(known) && known.name == topics[place].name && is_same_kind(known, &topics[place])
+        })
+    };
+    for (place, topic) in
+        topics.iter().enumerate().filter(|(place, topic)| usable(topic) && !is_again(*place))
+    {
         if topic.name.ends_with(LABELLED) {
             guess.remarks.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
         } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
@@ -83,6 +92,13 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
     guess
 }
 
+/// Whether two topics can be the same sensor's, or are both frames.
+fn is_same_kind(one: &Topic, other: &Topic) -> bool {
+    let kinds = [TopicKind::Radar, TopicKind::Camera, TopicKind::Tf].map(survey::types);
+    let fits = |topic: &Topic, types: &[&Definition]| types.iter().any(|known| known.is(&topic.type_name));
+    kinds.into_iter().any(|types| fits(one, types) && fits(other, types))
+}
+
 impl Guess {
     /// A radar or a LiDAR. A LiDAR whose frame is called as the world's is handed back with that frame.
     fn add_cloud(
@@ -91,7 +107,8 @@ impl Guess {
         topic: &Topic,
         place: usize,
     ) -> Option<(TopicConfig, String)> {
-        let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+        let of_topic =
+            messages.container().messages().iter().filter(|message| messages.topic_of(message) == place);
         // What can't be read is told by whoever reads all of it.
         let mut headers = of_topic.filter_map(|message| messages.read_header(message).ok());
         let frame = headers.next().map(|header| header.frame_id).unwrap_or_default();
@@ -191,7 +208,8 @@ impl Guess {
 
 /// A radar, if it is one by type, name or fields; else a LiDAR. Where no scan can be read, a LiDAR if it is called one.
 fn cloud_entry(messages: &Messages, topic: &Topic, place: usize, frame: &str) -> TopicConfig {
-    let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    let of_topic =
+        messages.container().messages().iter().filter(|message| messages.topic_of(message) == place);
     let names = [topic.name.as_str(), frame];
     let with_model = |kind, model: &str| TopicConfig {
         model: Some(model.to_owned()),

@@ -55,7 +55,7 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
     let mut losses: Vec<String> = messages.container().losses().iter().map(ToString::to_string).collect();
     let mut unread = Unread::default();
     for message in messages.container().messages() {
-        let seen = &mut seen[message.topic()];
+        let seen = &mut seen[messages.topic_of(message)];
         seen.log_ns.push(message.log_ns);
         if !seen.has_header {
             continue;
@@ -66,7 +66,7 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
                 seen.delays_ns.push(message.log_ns.saturating_sub(header.stamp_ns));
                 seen.frame.get_or_insert(header.frame_id);
             }
-            Err(error) => unread.add(message.topic(), &error),
+            Err(error) => unread.add(messages.topic_of(message), &error),
         }
     }
     losses.extend(unread.sentences(&messages, |_| true));

@@ -24,13 +24,14 @@ impl Messages {
         &self.path
     }
 
-    /// The place of the topic of this name and one of these types; `asked_by` is what an error is said of.
+    /// The places of the topics of this name and these types, for publishers may spell one type in two ways; `asked_by`
+    /// is what an error is said of.
     pub(super) fn resolve(
         &self,
         asked_by: &str,
         name: &str,
         types: &[&Definition],
-    ) -> Result<usize, DataError> {
+    ) -> Result<Vec<usize>, DataError> {
         let refused =
             |expected: String, found: String| DataError::content(&self.path, asked_by, expected, found);
         let topics = self.container.topics();
@@ -45,14 +46,17 @@ impl Messages {
             };
             return Err(refused(expected, format!("`{name}`")));
         }
-        let Some((place, topic)) = all.iter().find(|(_, topic)| fits(topic)) else {
+        let fitting: Vec<_> = all.iter().filter(|(_, topic)| fits(topic)).collect();
+        let Some((_, first)) = fitting.first() else {
             let found: Vec<&str> = all.iter().map(|(_, topic)| topic.type_name.as_str()).collect();
             return Err(refused(format!("`{name}` of the type {wanted}"), found.join(", ")));
         };
-        if topic.known_encoding().is_none() {
-            return Err(refused(format!("`{name}` in the encoding ros1 or cdr"), topic.encoding.clone()));
+        let known = fitting.iter().filter(|(_, topic)| topic.known_encoding().is_some());
+        let known: Vec<usize> = known.map(|(place, _)| *place).collect();
+        if known.is_empty() {
+            return Err(refused(format!("`{name}` in the encoding ros1 or cdr"), first.encoding.clone()));
         }
-        Ok(*place)
+        Ok(known)
     }
 
     /// Whether a topic is there and has no messages.
@@ -61,8 +65,13 @@ impl Messages {
         named.peek().is_some() && named.all(|topic| topic.count == 0)
     }
 
+    /// The place of a message's topic.
+    pub(super) fn topic_of(&self, message: &MessageRef) -> usize {
+        self.container.topic_of(message)
+    }
+
     pub(super) fn topic(&self, message: &MessageRef) -> &Topic {
-        &self.container.topics()[message.topic()]
+        &self.container.topics()[self.topic_of(message)]
     }
 
     /// A message of this type.

@@ -39,7 +39,7 @@ pub(crate) use topics::check as check_topics;
 pub use topics::{Stamps, TopicConfig, TopicKind, Topics};
 
 /// As `--format` takes it.
-pub(crate) const NAME: &str = "ros";
+pub const NAME: &str = "ros";
 /// How the topics end that `ralf export` adds: clouds with labels, which are no sensor's.
 pub(crate) const LABELLED: &str = "/points_labelled";
 

@@ -43,21 +43,27 @@ pub(super) struct PointClock {
 }
 
 impl PointClock {
-    /// The field of a cloud that tells its points' times.
-    pub(super) fn find(table: &PointTable, t_ns: i64) -> Told {
+    /// The field of a cloud that tells its points' times; the points themselves tell which of them are returns.
+    pub(super) fn find(table: &PointTable, points: &[[f32; 3]], t_ns: i64) -> Told {
         let Some(field) = FIELDS.into_iter().find(|field| table.names().any(|name| name == *field)) else {
             // Some drivers leave the fields out where there are no points.
             return if table.is_empty() { Told::Nothing(None) } else { Told::NoTimes };
         };
-        let times = table.wide_column(field).unwrap_or_default();
-        let times: Vec<f64> = times.into_iter().filter(|time| time.is_finite()).collect();
+        let times = table.wide_column(field).unwrap_or_default().into_iter();
+        // What is no return has no time, whatever stands in its place.
+        let returns = points.iter().map(is_return).chain(std::iter::repeat(true));
+        let timed = times.zip(returns).filter(|(time, is_return)| *is_return && time.is_finite());
+        let times: Vec<f64> = timed.map(|(time, _)| time).collect();
         let (first, last) = times.iter().fold((f64::MAX, f64::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
         if first >= last {
             return Told::Nothing(Some(field));
         }
         let stamp = t_ns as f64 * 1e-9;
+        let ends = |seconds: f64, is_absolute: bool| {
+            [first, last].map(|t| t * seconds - if is_absolute { stamp } else { 0.0 })
+        };
         let fits = |(seconds, is_absolute): (f64, bool)| {
-            let [begin, end] = [first, last].map(|t| t * seconds - if is_absolute { stamp } else { 0.0 });
+            let [begin, end] = ends(seconds, is_absolute);
             begin.abs() <= LONGEST_AFTER
                 && end.abs() <= LONGEST_AFTER
                 && (SHORTEST..LONGEST_AFTER).contains(&(end - begin))
@@ -66,10 +72,18 @@ impl PointClock {
             let unit = UNITS.into_iter().find(|(_, seconds)| fits((*seconds, is_absolute)));
             unit.map(|(unit, seconds)| Self { field, unit, seconds, is_absolute })
         };
+        // A clock that begins with the recording tells times as small as those since a stamp: it is one of the two
+        // by which the scan begins or ends at its stamp.
+        let from_stamp = |clock: &Self| {
+            let [begin, end] = ends(clock.seconds, clock.is_absolute);
+            begin.abs().min(end.abs())
+        };
+        let clocks = [false, true].into_iter().filter_map(clock);
         let strange = || {
             format!("`{field}` from {first} to {last} is a time of points in no known unit, and is not used")
         };
-        clock(false).or_else(|| clock(true)).map_or_else(|| Told::Strange(strange()), Told::Clock)
+        let nearest = clocks.min_by(|a, b| from_stamp(a).total_cmp(&from_stamp(b)));
+        nearest.map_or_else(|| Told::Strange(strange()), Told::Clock)
     }
 
     /// Seconds after the scan's time, point by point; 0 of what is no return. The error is a point whose time lies more
@@ -183,7 +197,7 @@ mod tests {
         ] {
             let cloud = cloud(field, datatype, &times);
             let table = PointTable::new(&cloud).unwrap();
-            let Told::Clock(clock) = PointClock::find(&table, T_NS) else { panic!("{driver}") };
+            let Told::Clock(clock) = PointClock::find(&table, &[], T_NS) else { panic!("{driver}") };
             assert_eq!(clock.unit, unit, "{driver}");
             let found = clock.times(&table, &[[1.0; 3]; 2], T_NS).unwrap();
             assert!(
@@ -197,7 +211,7 @@ mod tests {
     fn times_that_tell_nothing_are_none_and_strange_ones_are_named() {
         let find = |field: &str, times: &[f64]| {
             let cloud = cloud(field, Datatype::Float64, times);
-            PointClock::find(&PointTable::new(&cloud).unwrap(), T_NS)
+            PointClock::find(&PointTable::new(&cloud).unwrap(), &[], T_NS)
         };
         assert_eq!(find("t", &[0.0, 0.0]), Told::Nothing(Some("t")));
         assert_eq!(find("t", &[f64::NAN]), Told::Nothing(Some("t")));
@@ -206,6 +220,31 @@ mod tests {
         assert_eq!(find("ring", &[0.0, 0.1]), Told::NoTimes);
         let Told::Strange(sentence) = find("time", &[1.0e9, 1.0e9 + 0.1]) else { panic!("a unit") };
         assert!(sentence.contains("`time` from 1000000000 to"), "{sentence}");
+    }
+
+    /// The clock of a simulation begins at 0, and an organised cloud has cells in which nothing came back.
+    #[test]
+    fn a_clock_that_begins_with_the_recording_is_told_from_times_since_a_stamp() {
+        for scan in 1..12 {
+            let stamp = f64::from(scan) * 0.1;
+            let t_ns = i64::from(scan) * 100_000_000;
+            let on_clock = cloud("timestamp", Datatype::Float64, &[stamp, stamp + 0.05, stamp + 0.099]);
+            let since = cloud("timestamp", Datatype::Float64, &[0.0, 0.05, 0.099]);
+            for (cloud, is_absolute) in [(on_clock, true), (since, false)] {
+                let found = PointClock::find(&PointTable::new(&cloud).unwrap(), &[], t_ns);
+                let Told::Clock(clock) = found else { panic!("{scan}: {found:?}") };
+                assert_eq!((clock.unit, clock.is_absolute), ("s", is_absolute), "{scan}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_return_says_nothing_of_the_clock() {
+        let cloud = cloud("timestamp", Datatype::Float64, &[0.0, 1.6e9 + 0.26, 0.0, 1.6e9 + 0.35]);
+        let table = PointTable::new(&cloud).unwrap();
+        let points = [[f32::NAN; 3], [1.0; 3], [0.0; 3], [2.0; 3]];
+        assert!(matches!(PointClock::find(&table, &points, T_NS), Told::Clock(clock) if clock.is_absolute));
+        assert!(matches!(PointClock::find(&table, &[], T_NS), Told::Strange(_)));
     }
 
     #[test]
@@ -230,7 +269,7 @@ mod tests {
     #[test]
     fn a_point_of_another_day_is_refused_unless_it_is_no_return() {
         let first = cloud("time", Datatype::Float64, &[0.0, 0.1]);
-        let Told::Clock(clock) = PointClock::find(&PointTable::new(&first).unwrap(), T_NS) else {
+        let Told::Clock(clock) = PointClock::find(&PointTable::new(&first).unwrap(), &[], T_NS) else {
             panic!("no clock")
         };
         let later = cloud("time", Datatype::Float64, &[0.05, 7.0]);

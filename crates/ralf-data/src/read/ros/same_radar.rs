@@ -26,7 +26,7 @@ pub(super) fn remarks(topics: &Topics, messages: &Messages) -> Vec<String> {
 fn first(messages: &Messages, topic: &str) -> Vec<(String, i64)> {
     let container = messages.container();
     let is_own: Vec<bool> = container.topics().iter().map(|known| known.name == topic).collect();
-    let of_topic = container.messages().iter().filter(|message| is_own[message.topic()]);
+    let of_topic = container.messages().iter().filter(|message| is_own[container.topic_of(message)]);
     let headers = of_topic.filter_map(|message| messages.read_header(message).ok());
     let told = headers.map(|header| (header.frame_id, header.stamp_ns));
     told.filter(|(_, stamp_ns)| *stamp_ns != 0).take(FIRST).collect()

@@ -7,7 +7,7 @@ use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
 use super::point_clock::{PointClock, Said};
 use super::range_rate;
-use super::survey::{Survey, info_topic};
+use super::survey::{Survey, info_topics};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::track::{MessagesPerSensor, Track};
 use super::unread::ByReason;
@@ -267,7 +267,9 @@ impl Asked<'_> {
     /// Why the first message can't be read whose header can't.
     fn unread(&self) -> &str {
         let first = self.track.unreadable.first();
-        first.and_then(|message| self.survey.unread.reason(message.topic())).unwrap_or_default()
+        first
+            .and_then(|message| self.survey.unread.reason(self.messages.topic_of(message)))
+            .unwrap_or_default()
     }
 
     /// What is said of a sensor none of whose messages can be read.
@@ -305,8 +307,8 @@ impl Asked<'_> {
     }
 
     fn calibration(&self) -> Result<&(MessageRef, CameraInfo), DataError> {
-        let place = info_topic(self.messages, self.name, self.topic)?;
-        self.survey.infos.get(&place).ok_or_else(|| {
+        let places = info_topics(self.messages, self.name, self.topic)?;
+        places.iter().find_map(|place| self.survey.infos.get(place)).ok_or_else(|| {
             let (asked_by, found) = (format!("topics.{}.info", self.name), "none that can be read");
             DataError::content(self.messages.path(), asked_by, "a calibration", found)
         })

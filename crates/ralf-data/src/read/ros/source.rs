@@ -26,9 +26,21 @@ pub(crate) struct RosOrigin {
     radar_frames: Vec<String>,
     /// When the recorder got each scan of each radar, ns.
     radar_logs: Vec<Vec<i64>>,
+    /// The topics with messages that nothing was read from, by name.
+    other_topics: Vec<String>,
 }
 
 impl RosOrigin {
+    /// Of a sequence; `None` of one that was read from something else.
+    pub(crate) fn of(reader: &dyn SequenceReader) -> Option<&Self> {
+        reader.origin().and_then(<dyn Any>::downcast_ref)
+    }
+
+    /// The topics with messages that nothing was read from, by name.
+    pub(crate) fn other_topics(&self) -> &[String] {
+        &self.other_topics
+    }
+
     /// All messages, which can be copied as they are.
     pub(crate) fn container(&self) -> &Container {
         self.messages.container()
@@ -43,6 +55,24 @@ impl RosOrigin {
     pub(crate) fn radar_log(&self, radar: usize, scan: usize) -> Option<i64> {
         self.radar_logs.get(radar)?.get(scan).copied()
     }
+}
+
+fn other_topics(messages: &Messages, topics: &Topics) -> Vec<String> {
+    let read: Vec<&str> = topics
+        .values()
+        .flat_map(|topic| [Some(&topic.topic), topic.info.as_ref()])
+        .flatten()
+        .map(String::as_str)
+        .collect();
+    let mut others: Vec<String> = messages
+        .container()
+        .topics()
+        .iter()
+        .filter(|topic| topic.count > 0 && !read.contains(&topic.name.as_str()))
+        .map(|topic| topic.name.clone())
+        .collect();
+    others.dedup();
+    others
 }
 
 /// One recording.
@@ -82,7 +112,8 @@ impl Drive {
         let sequence = Sequence { name, title, rig, times, motion, depth_output: DepthOutput::default() };
         let logs = |messages: &Vec<MessageRef>| messages.iter().map(|message| message.log_ns).collect();
         let radar_logs = radars.iter().map(logs).collect();
-        let origin = RosOrigin { messages, radar_frames, radar_logs };
+        let other_topics = other_topics(&messages, topics);
+        let origin = RosOrigin { messages, radar_frames, radar_logs, other_topics };
         Ok(Self { sequence, origin, radars, lidars, clocks, rates, cameras, warnings, lost, absent })
     }
 

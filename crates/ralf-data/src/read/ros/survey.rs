@@ -86,8 +86,12 @@ pub(super) fn types(kind: TopicKind) -> &'static [&'static Definition] {
     }
 }
 
-/// The place of a camera's calibration among the topics.
-pub(super) fn info_topic(messages: &Messages, name: &str, topic: &TopicConfig) -> Result<usize, DataError> {
+/// The places of a camera's calibration among the topics.
+pub(super) fn info_topics(
+    messages: &Messages,
+    name: &str,
+    topic: &TopicConfig,
+) -> Result<Vec<usize>, DataError> {
     let info = topic.info.as_deref().unwrap_or_default();
     messages.resolve(&format!("topics.{name}.info"), info, &[CameraInfo::DEFINITION])
 }
@@ -97,7 +101,7 @@ pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, Dat
     let roles = roles(messages, topics)?;
     let mut survey = Survey::default();
     for message in messages.container().messages() {
-        let roles = &roles[message.topic()];
+        let roles = &roles[messages.topic_of(message)];
         if roles.is_empty() {
             continue;
         }
@@ -110,7 +114,7 @@ pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, Dat
             Err(Trouble::Contradiction(error) | Trouble::Unreadable(error @ DataError::Io { .. })) => {
                 return Err(error);
             }
-            Err(Trouble::Unreadable(error)) => survey.miss(message, roles, &error),
+            Err(Trouble::Unreadable(error)) => survey.miss(messages, message, roles, &error),
         }
     }
     survey.check_complete(messages, topics)?;
@@ -124,17 +128,20 @@ fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>
         if messages.is_silent(&topic.topic) {
             continue;
         }
-        let place = messages.resolve(&format!("topics.{name}"), &topic.topic, types(topic.kind))?;
-        roles[place].push(match topic.kind {
+        let role = match topic.kind {
             TopicKind::Radar | TopicKind::Lidar | TopicKind::Camera => Role::Sensor(name, topic),
             TopicKind::Odometry | TopicKind::Twist | TopicKind::Imu => Role::Motion(name, topic),
             TopicKind::Tf => Role::Frames(Kind::Moving),
             TopicKind::TfStatic => Role::Frames(Kind::Static),
-        });
+        };
+        for place in messages.resolve(&format!("topics.{name}"), &topic.topic, types(topic.kind))? {
+            roles[place].push(role);
+        }
         if topic.kind == TopicKind::Camera {
-            let info = info_topic(messages, name, topic)?;
-            if roles[info].is_empty() {
-                roles[info].push(Role::Calibration);
+            for info in info_topics(messages, name, topic)? {
+                if roles[info].is_empty() {
+                    roles[info].push(Role::Calibration);
+                }
             }
         }
     }
@@ -208,8 +215,8 @@ impl Survey {
     }
 
     /// Notes a message that can't be read.
-    fn miss(&mut self, message: &MessageRef, roles: &[Role<'_>], error: &DataError) {
-        self.unread.add(message.topic(), error);
+    fn miss(&mut self, messages: &Messages, message: &MessageRef, roles: &[Role<'_>], error: &DataError) {
+        self.unread.add(messages.topic_of(message), error);
         for role in roles {
             if let Role::Sensor(name, _) = role {
                 self.sensors.entry((*name).to_owned()).or_default().unreadable.push(*message);
@@ -220,7 +227,8 @@ impl Survey {
     /// Keeps the first calibration; one that changes is refused, for the rig has one.
     fn calibrate(&mut self, messages: &Messages, message: &MessageRef, bytes: &[u8]) -> Result<(), Trouble> {
         let info = messages.decoded(message, bytes, CameraInfo::from_bytes)?;
-        let (_, known) = self.infos.entry(message.topic()).or_insert_with(|| (*message, info.clone()));
+        let (_, known) =
+            self.infos.entry(messages.topic_of(message)).or_insert_with(|| (*message, info.clone()));
         if camera::is_same(&info, known) {
             return Ok(());
         }
@@ -239,8 +247,9 @@ impl Survey {
         let Some((_, topic)) = topics.iter().find(|(name, topic)| !is_read(name, topic)) else {
             return Ok(());
         };
-        let known = messages.container().topics().iter().position(|known| known.name == topic.topic);
-        let reason = known.and_then(|place| self.unread.reason(place)).unwrap_or_default();
+        let all = messages.container().topics().iter().enumerate();
+        let mut named = all.filter(|(_, known)| known.name == topic.topic);
+        let reason = named.find_map(|(place, _)| self.unread.reason(place)).unwrap_or_default();
         let found = format!("none; the first: {reason}");
         Err(DataError::content(messages.path(), &topic.topic, "a message that can be read", found))
     }
@@ -304,7 +313,8 @@ fn same_frame(
     if known.is_empty() {
         found.clone_into(known);
     }
-    if known == found {
+    // Frames of ROS 1 may be called with a slash, and are the same ones.
+    if known.trim_start_matches('/') == found.trim_start_matches('/') {
         return Ok(());
     }
     let expected = format!("`{known}` as in the messages before");

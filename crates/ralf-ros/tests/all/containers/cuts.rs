@@ -13,7 +13,7 @@ type Found = BTreeMap<(String, i64), Vec<u8>>;
 fn found(container: &Container) -> Found {
     let read = |message| {
         let bytes = container.read(message).ok()?;
-        Some(((container.topics()[message.topic()].name.clone(), message.log_ns), bytes))
+        Some(((container.topics()[container.topic_of(message)].name.clone(), message.log_ns), bytes))
     };
     container.messages().iter().filter_map(read).collect()
 }

@@ -107,7 +107,7 @@ fn who_comes_later_gets_what_is_for_those_and_types_are_told() {
     std::fs::write(&file, fixture("db3/db3.db3")).unwrap();
     let topic = |name: &str| {
         let container = Container::open(&file).unwrap();
-        container.topics().iter().find(|topic| topic.name == name).unwrap().schema.clone()
+        container.channels().iter().find(|channel| channel.topic == name).unwrap().clone()
     };
     assert!(topic("/tf_static").latched && !topic("/odom").latched);
     let on = rusqlite::Connection::open(&file).unwrap();
@@ -128,13 +128,14 @@ fn who_comes_later_gets_what_is_for_those_and_types_are_told() {
                    type_description_hash) VALUES ('nav_msgs/msg/Odometry', 'ros2msg', 'Thing a', '')";
     on.execute("DELETE FROM message_definitions", []).unwrap();
     on.execute(defined, []).unwrap();
-    let told = topic("/odom");
-    assert_eq!((told.encoding.as_str(), told.text.as_slice()), ("ros2msg", b"Thing a".as_slice()));
+    let odom = topic("/odom");
+    let told = (odom.schema.encoding.as_str(), odom.schema.text.as_slice());
+    assert_eq!(told, ("ros2msg", b"Thing a".as_slice()));
     // What is wrong with a definition costs no more than that.
     on.execute("UPDATE message_definitions SET encoded_message_definition = x'ff00'", []).unwrap();
-    assert!(topic("/odom").text.is_empty());
+    assert!(topic("/odom").schema.text.is_empty());
     // What older recorders write has neither.
     on.execute_batch("DROP TABLE message_definitions; ALTER TABLE topics DROP COLUMN offered_qos_profiles")
         .unwrap();
-    assert!(topic("/tf_static").latched && topic("/odom").text.is_empty());
+    assert!(topic("/tf_static").latched && topic("/odom").schema.text.is_empty());
 }

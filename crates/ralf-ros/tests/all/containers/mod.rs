@@ -74,7 +74,7 @@ fn what_is_written_is_read_back() {
             container.topics().iter().map(|topic| (topic.name.as_str(), topic.count)).collect();
         assert_eq!(topics, [("/radar", 20_000), ("/tf_static", 1)]);
         let encoding = container.topics()[0].known_encoding().unwrap();
-        let scans = container.messages().iter().filter(|message| message.topic() == 0);
+        let scans = container.messages().iter().filter(|message| container.topic_of(message) == 0);
         for (k, message) in (0..).zip(scans) {
             assert_eq!(message.log_ns, k * 1000 + 5);
             let read = RadarScan::from_bytes(encoding, &container.read(message).unwrap()).unwrap();
@@ -91,8 +91,8 @@ fn messages_that_are_compressed_one_by_one_are_read() {
     let original = place.open(&plain).unwrap();
     let written = |stored: &dyn Fn(Vec<u8>) -> Vec<u8>| {
         let mut to = MessageWriter::mcap(Cursor::new(Vec::new()), Compression::None).unwrap();
-        let topic = to.raw_topic(&original.topics()[0]).unwrap();
-        for message in original.messages().iter().filter(|message| message.topic() == 0) {
+        let topic = to.raw_topic(&original.channels()[0]).unwrap();
+        for message in original.messages().iter().filter(|message| original.topic_of(message) == 0) {
             to.write_raw(&topic, message.log_ns, &stored(original.read(message).unwrap())).unwrap();
         }
         to.finish().unwrap().into_inner()

@@ -2,6 +2,7 @@
 
 use super::*;
 use ralf::sensors::LidarScan;
+use ralf_ros::container::{Channel, Container};
 
 #[test]
 fn measurements_come_in_the_order_of_their_stamps() {
@@ -225,4 +226,26 @@ fn times_in_no_unit_are_told_and_left_alone() {
     let drive = open_file(&path, TABLE).unwrap();
     assert!(drive.warnings()[0].starts_with("roof: `timestamp` from 2999999"), "{:?}", drive.warnings());
     assert!(drive.lidar_scan(0, 0).unwrap().times.is_none());
+}
+
+/// A node of old and one of new tf, both on `/tf_static`.
+#[test]
+fn both_spellings_of_a_type_are_read_from_one_topic() {
+    let (folder, path) = Drive { bag: true, ..Drive::default() }.write();
+    let one = Container::open(&path).unwrap();
+    let both = folder.path().join("both.bag");
+    let mut to = MessageWriter::bag(File::create(&both).unwrap()).unwrap();
+    let copies: Vec<_> = one.channels().iter().map(|channel| to.raw_topic(channel).unwrap()).collect();
+    let frames = one.channels().iter().position(|channel| channel.topic == "/tf_static").unwrap();
+    let old = Channel { type_name: "tf/tfMessage".to_owned(), ..one.channels()[frames].clone() };
+    let old = to.raw_topic(&old).unwrap();
+    for (place, message) in one.messages().iter().enumerate() {
+        let is_old = message.channel() == frames && place % 2 == 0;
+        let channel = if is_old { &old } else { &copies[message.channel()] };
+        to.write_raw(channel, message.log_ns, &one.read(message).unwrap()).unwrap();
+    }
+    to.finish().unwrap();
+    let [expected, found] = [&path, &both].map(|path| open_file(path, TABLE).unwrap());
+    assert_eq!(format!("{:?}", found.sequence().rig), format!("{:?}", expected.sequence().rig));
+    assert_eq!(guess(&both).unwrap().topics, guess(&path).unwrap().topics);
 }

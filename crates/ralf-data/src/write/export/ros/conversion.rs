@@ -20,7 +20,7 @@ pub struct RosWritten {
     /// The file of the settings; `None` of a recording that was copied, for those of the original hold.
     pub settings: Option<PathBuf>,
     /// What the sequence has and such a file has no place for, a name each, for people.
-    pub left_out: Vec<&'static str>,
+    pub left_out: Vec<String>,
     /// How much later than it was measured everything is written, ns: more than 0 where there are times before 1970,
     /// which ROS doesn't know.
     pub delay_ns: i64,
@@ -56,7 +56,8 @@ pub fn write_ros(
         let delay_ns = recorder.record(None, progress)?;
         if copies {
             fs::rename(&part, file).map_err(DataError::io(file))?;
-            return Ok(RosWritten { settings: None, left_out: Vec::new(), delay_ns });
+            let left_out = left_out::left_out_of_copy(reader);
+            return Ok(RosWritten { settings: None, left_out, delay_ns });
         }
         let left_out = left_out::left_out(reader);
         let settings = Some(put_with_settings(&part, file, &settings)?);

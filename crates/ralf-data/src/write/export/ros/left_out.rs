@@ -2,10 +2,14 @@
 
 use crate::frames::{ScanIndex, all_scans};
 use crate::read::SequenceReader;
+use crate::read::ros::RosOrigin;
 use ralf::sensors::{Intrinsics, Sequence};
 
+/// So many topics are named.
+const SHOWN: usize = 5;
+
 /// All of it, a name each, for people. What a LiDAR's scans carry is judged by its first.
-pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<&'static str> {
+pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<String> {
     let Sequence { rig, times, .. } = reader.sequence();
     let radar_scans = all_scans(times);
     let first_scans: Vec<_> =
@@ -27,5 +31,22 @@ pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<&'static str> {
         ("straight views", cameras.iter().any(|camera| !camera.views.is_empty())),
         ("Scaramuzza lenses", cameras.iter().any(|c| matches!(c.intrinsics, Intrinsics::Scaramuzza { .. }))),
     ];
-    all.into_iter().filter_map(|(name, is_there)| is_there.then_some(name)).collect()
+    let named = all.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name.to_owned());
+    named.chain(RosOrigin::of(reader).and_then(other_topics)).collect()
+}
+
+/// The topics of a ROS recording that no sensor of the sequence was read from, where there are some.
+fn other_topics(origin: &RosOrigin) -> Option<String> {
+    let others = origin.other_topics();
+    let more = others.len().saturating_sub(SHOWN);
+    let named = others.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    (!others.is_empty()).then(|| format!("topics that no sensor of it is ({named}{more})"))
+}
+
+/// What a copy lacks of the recording, byte for byte though its messages are.
+pub(super) fn left_out_of_copy(reader: &dyn SequenceReader) -> Vec<String> {
+    let attached = RosOrigin::of(reader).map_or(0, |origin| origin.container().attached());
+    let told = (attached > 0).then(|| "attachments and metadata of MCAP files".to_owned());
+    told.into_iter().collect()
 }

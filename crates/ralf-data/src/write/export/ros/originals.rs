@@ -4,17 +4,16 @@ use super::{FileWriter, written};
 use crate::error::DataError;
 use crate::read::ros::{LABELLED, RosOrigin};
 use crate::read::{Altered, SequenceReader};
-use ralf_ros::container::{Container, MessageRef, Topic};
+use ralf_ros::container::{Channel, Container, MessageRef};
 use ralf_ros::writer::{RawTopic, WriteError};
-use std::any::Any;
 use std::path::Path;
 
 /// The recording behind a sequence, and which of its topics are copied.
 pub(super) struct Originals<'a> {
     origin: &'a RosOrigin,
     container: &'a Container,
-    /// One for each topic of the recording; an earlier export's labels are not copied.
-    topics: Vec<Option<RawTopic>>,
+    /// One for each channel of the recording; an earlier export's labels are not copied.
+    channels: Vec<Option<RawTopic>>,
 }
 
 impl<'a> Originals<'a> {
@@ -28,17 +27,15 @@ impl<'a> Originals<'a> {
         if reader.altered() > at_most {
             return Ok(None);
         }
-        let Some(origin) = reader.origin().and_then(<dyn Any>::downcast_ref::<RosOrigin>) else {
-            return Ok(None);
-        };
+        let Some(origin) = RosOrigin::of(reader) else { return Ok(None) };
         let container = origin.container();
-        let is_copied = |topic: &&Topic| !topic.name.ends_with(LABELLED);
-        if !container.topics().iter().filter(is_copied).all(|topic| writer.can_copy(topic)) {
+        let is_copied = |channel: &&Channel| !channel.topic.ends_with(LABELLED);
+        if !container.channels().iter().filter(is_copied).all(|channel| writer.can_copy(channel)) {
             return Ok(None);
         }
-        let copy = |topic| is_copied(&topic).then(|| writer.raw_topic(topic)).transpose();
-        let topics = container.topics().iter().map(copy).collect::<Result<_, _>>()?;
-        Ok(Some(Self { origin, container, topics }))
+        let copy = |channel| is_copied(&channel).then(|| writer.raw_topic(channel)).transpose();
+        let channels = container.channels().iter().map(copy).collect::<Result<_, _>>()?;
+        Ok(Some(Self { origin, container, channels }))
     }
 
     /// The frame of each radar.
@@ -54,7 +51,7 @@ impl<'a> Originals<'a> {
 
     /// When each message that is copied was recorded.
     pub(super) fn times(&self) -> impl Iterator<Item = (i64, usize)> {
-        let copied = |(_, message): &(usize, &MessageRef)| self.topics[message.topic()].is_some();
+        let copied = |(_, message): &(usize, &MessageRef)| self.channels[message.channel()].is_some();
         let messages = self.container.messages().iter().enumerate().filter(copied);
         messages.map(|(place, message)| (message.log_ns, place))
     }
@@ -62,8 +59,8 @@ impl<'a> Originals<'a> {
     /// Copies a message.
     pub(super) fn copy(&self, place: usize, writer: &mut FileWriter, file: &Path) -> Result<(), DataError> {
         let message = &self.container.messages()[place];
-        let Some(topic) = &self.topics[message.topic()] else { return Ok(()) };
+        let Some(channel) = &self.channels[message.channel()] else { return Ok(()) };
         let bytes = self.container.read(message)?;
-        writer.write_raw(topic, message.log_ns, &bytes).map_err(written(file))
+        writer.write_raw(channel, message.log_ns, &bytes).map_err(written(file))
     }
 }
