@@ -36,6 +36,6 @@ mod verdict;
 mod wheels;
 
 pub use change::{MotionChange, SensorChange};
-pub use judge::{Refinement, check, check_and_refine};
+pub use judge::{Refinement, check, check_and_refine, check_with_figures};
 pub use remedy::{Remedy, Setting, toml_key};
 pub use verdict::{Question, RadarFigures, SequenceCheck, State, Verdict};

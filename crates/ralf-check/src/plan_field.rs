@@ -1,5 +1,6 @@
 //! How far the nearest obstacle is from any place in plan: a grid, so that a question costs one look.
 
+use std::ops::Range;
 use std::sync::LazyLock;
 
 /// Width of a cell, m.
@@ -13,6 +14,10 @@ const DISC: usize = 5;
 /// The distance of what is farther from every obstacle, m.
 pub(crate) const FAR: f64 = DISC as f64 * CELL;
 
+/// Beside an obstacle: in plan, m. Five standard deviations of a radar's range, and half a car's flank; of LiDARs the
+/// width of a thing that both see from two sides.
+const BESIDE: f64 = 0.4;
+
 /// Cells of a tile's side.
 const TILE: usize = 16;
 /// Tiles of a side.
@@ -24,6 +29,8 @@ const TILES: usize = SIDE.div_ceil(TILE);
 pub(crate) struct PlanField {
     /// Row by row, x along a row.
     tiles: Vec<Option<Box<Tile>>>,
+    /// Which cells are beside an obstacle: a bit each, row by row. Small enough that most questions find it near.
+    beside: Vec<u16>,
 }
 
 /// A square of cells; row by row, x along a row.
@@ -37,6 +44,8 @@ struct Tile {
 
 /// Of a distance, m.
 const STEP: f64 = FAR / 250.0;
+/// So many of them.
+const BESIDE_STEPS: u8 = (BESIDE / STEP) as u8;
 
 impl PlanField {
     /// Of obstacles at x, y (m, about the vehicle) and z (m above the vehicle's origin). Those farther than 50 m are
@@ -56,10 +65,18 @@ impl PlanField {
             }
         }
         let mut canvas = Canvas::empty();
+        let is_occupied =
+            |column: usize, row: usize| own.get(row * SIDE + column).is_some_and(Option::is_some);
         for [column, row] in occupied {
-            canvas.paint([column, row], own[row * SIDE + column].unwrap_or_default());
+            // What lies behind a neighbour is nearer to that one.
+            let below = row > 0 && is_occupied(column, row - 1);
+            let above = is_occupied(column, row + 1);
+            let rows = if below { DISC } else { 0 }..if above { DISC + 1 } else { 2 * DISC + 1 };
+            canvas.paint([column, row], rows, own[row * SIDE + column].unwrap_or_default());
         }
-        Self { tiles: canvas.tiles() }
+        let tiles = canvas.tiles();
+        let beside = beside(&tiles);
+        Self { tiles, beside }
     }
 
     /// The distance at a place, in steps of [`STEP`], and the top of what is there; of what is far from every obstacle
@@ -84,6 +101,12 @@ impl PlanField {
     /// Distance from a place to the nearest obstacle, m, at most [`FAR`]; `None` beyond 50 m.
     pub(crate) fn distance(&self, x: f64, y: f64) -> Option<f64> {
         cell(x, y).map(|cell| self.distance_of(cell))
+    }
+
+    /// Whether a place is [`BESIDE`] an obstacle; `None` beyond 50 m.
+    pub(crate) fn is_beside(&self, x: f64, y: f64) -> Option<bool> {
+        let [column, row] = cell(x, y)?;
+        Some(self.beside[row * TILES + column / TILE] >> (column % TILE) & 1 == 1)
     }
 
     /// Whether there is an obstacle at a place.
@@ -114,6 +137,20 @@ impl PlanField {
     }
 }
 
+/// The cells beside an obstacle.
+fn beside(tiles: &[Option<Box<Tile>>]) -> Vec<u16> {
+    let mut beside = vec![0; TILES * TILES * TILE];
+    for (place, tile) in tiles.iter().enumerate() {
+        let Some(tile) = tile else { continue };
+        for (y, row) in tile.distance.as_chunks::<TILE>().0.iter().enumerate() {
+            let bits =
+                row.iter().rev().fold(0, |bits, distance| bits << 1 | u16::from(*distance <= BESIDE_STEPS));
+            beside[(place / TILES * TILE + y) * TILES + place % TILES] = bits;
+        }
+    }
+    beside
+}
+
 /// Cells painted at once: a disc's widest row, rounded up to what a vector register holds.
 const ROW: usize = 16;
 /// A canvas has room for a disc about every cell, and for whole rows of it.
@@ -134,16 +171,18 @@ impl Canvas {
         Self { distance: vec![u8::MAX; cells], tops: vec![0; cells], painted: vec![false; TILES * TILES] }
     }
 
-    /// An obstacle in a cell: what was painted first stays where another one is as near.
-    fn paint(&mut self, [column, row]: [usize; 2], top: i8) {
-        for (dy, disc) in DISTANCES.iter().enumerate() {
+    /// An obstacle in a cell, in these rows of the disc about it: what was painted first stays where another one is as
+    /// near.
+    fn paint(&mut self, [column, row]: [usize; 2], rows: Range<usize>, top: i8) {
+        for (dy, disc) in DISTANCES.iter().enumerate().skip(rows.start).take(rows.len()) {
             let begin = (row + dy) * WIDTH + column;
             let row = begin..begin + ROW;
-            let tops = &mut self.tops[row.clone()];
-            for ((distance, own), new) in self.distance[row].iter_mut().zip(tops).zip(disc) {
-                let is_nearer = new < distance;
-                *distance = if is_nearer { *new } else { *distance };
-                *own = if is_nearer { top } else { *own };
+            let (distance, tops) = (&mut self.distance[row.clone()], &mut self.tops[row]);
+            // All bits or none: what is chosen by an `if` is written cell by cell.
+            for ((distance, own), new) in distance.iter_mut().zip(tops).zip(disc) {
+                let nearer = u8::from(new < distance).wrapping_neg();
+                *distance = (new & nearer) | (*distance & !nearer);
+                *own = (top & nearer.cast_signed()) | (*own & !nearer.cast_signed());
             }
         }
         let ends = |cell: usize| [cell.saturating_sub(DISC), (cell + DISC).min(SIDE - 1)];
@@ -231,6 +270,7 @@ mod tests {
             let smooth = field.smooth_distance(place.0, place.1).unwrap();
             prop_assert!((smooth - nearest).abs() <= 2.0 * CELL * 2.0_f64.sqrt(), "{smooth} {nearest}");
             prop_assert!((found - nearest).abs() <= CELL * 2.0_f64.sqrt() + STEP, "{found} {nearest}");
+            prop_assert_eq!(field.is_beside(place.0, place.1), Some(found <= BESIDE));
         }
 
         #[test]

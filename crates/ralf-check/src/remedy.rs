@@ -51,6 +51,8 @@ pub enum Remedy {
     MotionClock(f64),
     /// This, of the odometry that is recorded beside poses. Settings change both alike, so none puts it right.
     Odometry(Box<Self>),
+    /// This, of poses. Settings turn none, and change odometry beside them alike, so none puts it right.
+    Poses(Box<Self>),
     /// Something to look into that no setting puts right.
     LookInto(&'static str),
 }
@@ -87,7 +89,19 @@ impl Remedy {
                 format!("odometry {}", remedy.words())
             }
             Self::Odometry(remedy) => format!("odometry's {}", remedy.words()),
+            Self::Poses(remedy) if matches!(**remedy, Self::MotionClock(_)) => {
+                format!("its poses' clock {}", remedy.words())
+            }
+            Self::Poses(remedy) => format!("poses' {}", remedy.words()),
             Self::LookInto(what) => (*what).to_owned(),
+        }
+    }
+
+    /// The same of the motion as one of its poses alone.
+    pub(crate) fn of_poses(self) -> Self {
+        match self {
+            Self::Speed(_) | Self::YawRate(_) | Self::MotionClock(_) => Self::Poses(Box::new(self)),
+            other => other,
         }
     }
 
@@ -112,6 +126,7 @@ impl Remedy {
             | Self::Exchanged
             | Self::InDegrees(_)
             | Self::Odometry(_)
+            | Self::Poses(_)
             | Self::LookInto(_) => Vec::new(),
         }
     }
@@ -214,9 +229,10 @@ fn unit_of_length(factor: f64) -> String {
 }
 
 /// Units that speeds are given in by mistake, in m/s.
-pub(crate) const SPEEDS: [(f64, &str); 6] = [
+pub(crate) const SPEEDS: [(f64, &str); 7] = [
     (1.0 / 3.6, "km/h"),
     (0.01, "cm/s"),
+    (0.001, "mm/s"),
     (0.447, "mph"),
     (3.6, "m/s that were divided by 3.6 again"),
     (100.0, "hundreds of m/s"),

@@ -87,7 +87,7 @@ pub struct SequenceCheck {
     pub name: String,
     /// By sensor: the motion, the radars, the LiDARs, the cameras.
     pub verdicts: Vec<Verdict>,
-    /// What the pictures show.
+    /// What pictures show, of each radar; nothing where nobody asked for it.
     pub figures: Vec<RadarFigures>,
 }
 

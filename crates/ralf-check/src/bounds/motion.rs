@@ -9,6 +9,8 @@ use ralf::space::{EgoMotion, OdometrySample, PoseSample};
 
 /// Faster than any road vehicle in traffic, m/s.
 const FASTEST: f64 = 70.0;
+/// What speeds beyond it may be, in m/s: those of cm and of mm.
+const SMALL_UNITS: [f64; 2] = [0.01, 0.001];
 /// Turns faster than any, rad/s, and what tyres hold, m/s^2.
 const YAW_RATE: f64 = 1.5;
 const SIDEWAYS: f64 = 9.0;
@@ -100,7 +102,7 @@ fn coverage(told: &Told, scans: &[i64]) -> Option<Verdict> {
         );
         return Some(doubt(
             evidence,
-            Some(Remedy::LookInto("is its clock the sensors', and is all of it there?")),
+            Some(Remedy::LookInto("may have another clock than the sensors, or a part of it is missing")),
         ));
     }
     let within =
@@ -119,7 +121,8 @@ fn rates(told: &Told) -> Vec<Verdict> {
     let sideways = most(|t| (t[0] * t[1]).abs());
     let mut found = Vec::new();
     if speed > FASTEST {
-        let remedy = is_alone.then_some(Remedy::Speed(0.01));
+        let unit = SMALL_UNITS.into_iter().find(|unit| speed * unit <= FASTEST);
+        let remedy = unit.filter(|_| *is_alone).map(Remedy::Speed);
         found.push(doubt(format!("{name} drives at {speed:.0} m/s"), remedy));
     }
     if turn > YAW_RATE {
@@ -157,7 +160,7 @@ fn leaps(motion: &EgoMotion, scans: &[i64]) -> Option<Verdict> {
         found.len(),
         after.t_ns
     );
-    Some(doubt(evidence, Some(Remedy::LookInto("leave out the samples that are none"))))
+    Some(doubt(evidence, Some(Remedy::LookInto("has samples that are none, to be left out"))))
 }
 
 /// With four digits; what is too large for any use as a power of ten.
@@ -178,7 +181,7 @@ fn stuck(motion: &EgoMotion) -> Option<Verdict> {
         return None;
     }
     let evidence = format!("{:.0} % of its samples repeat the one before to the last bit", repeated * 100.0);
-    Some(doubt(evidence, Some(Remedy::LookInto("is its recorder stuck?"))))
+    Some(doubt(evidence, Some(Remedy::LookInto("looks as if its recorder was stuck"))))
 }
 
 /// From one pose to the next.
@@ -220,7 +223,7 @@ impl<'a> Poses<'a> {
         let found: Vec<f64> = self.steps.iter().filter(|step| step.jumped).map(|step| step.length).collect();
         let largest = found.iter().copied().reduce(f64::max)?;
         let evidence = format!("poses jump {} times, by up to {largest:.1} m", found.len());
-        Some(doubt(evidence, Some(Remedy::LookInto("split the sequence where they do"))))
+        Some(doubt(evidence, Some(Remedy::LookInto("jumps: split the sequence there"))))
     }
 }
 

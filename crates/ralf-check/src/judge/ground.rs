@@ -9,7 +9,9 @@ use crate::remedy::Remedy;
 use crate::sample::LidarLook;
 use crate::statistics::{Estimate, estimate, median};
 use crate::verdict::{Question, Verdict};
-use ralf::space::EgoMotion;
+use nalgebra::UnitQuaternion;
+use ralf::sensors::Lidar;
+use ralf::space::{EgoMotion, Transform, Vector};
 
 /// Scans that are needed: one may stand on a kerb.
 const FEWEST: usize = 3;
@@ -21,12 +23,13 @@ pub(super) fn judge(case: &Case) -> Vec<Verdict> {
     lidars
         .map(|(i, lidar)| {
             let looks: Vec<&LidarLook> = case.sample.lidars.iter().filter(|look| look.lidar == i).collect();
-            one(&lidar.name, &looks, &case.motion)
+            one(lidar, &looks, &case.motion)
         })
         .collect()
 }
 
-fn one(name: &str, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
+fn one(lidar: &Lidar, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
+    let name = lidar.name.as_str();
     let fits: Vec<&GroundFit> = looks.iter().filter_map(|look| look.ground.as_ref()).collect();
     let support = median(&fits.iter().map(|fit| fit.support).collect::<Vec<_>>()).unwrap_or(0.0);
     if let Some(remedy) = misread(looks) {
@@ -56,7 +59,12 @@ fn one(name: &str, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
             format!("{evidence}, which a ramp may be: {:.0} m of driving are needed", PLACE * PLACES as f64);
         return Verdict::cannot_judge(name, Question::Ground, missing);
     }
-    Verdict::doubt(name, Question::Ground, evidence, Some(Remedy::Sensor(seen.remedy())))
+    Verdict::doubt(
+        name,
+        Question::Ground,
+        evidence,
+        Some(Remedy::Sensor(seen.remedy(&lidar.vehicle_from_lidar))),
+    )
 }
 
 /// What most scans would show a road as, that show none.
@@ -115,13 +123,20 @@ impl Seen {
         self.forward.value.hypot(self.left.value) > NO_RAMP.0 || self.height.value.abs() > NO_RAMP.1
     }
 
-    /// About the vehicle's axes, for a LiDAR that looks forward: what rises in front is put down by a positive pitch.
-    fn remedy(&self) -> SensorChange {
+    /// The turn about the LiDAR that puts the plane level, as one about its own axes, and the height that is missing
+    /// then: from the LiDAR the plane is as far as before.
+    fn remedy(&self, mount: &Transform) -> SensorChange {
         let found =
             |estimate: &Estimate, limit: f64| if is_beyond(estimate, limit) { estimate.value } else { 0.0 };
+        let [forward, left] = [&self.forward, &self.left].map(|rise| found(rise, TILT_DEG).to_radians());
+        let (up, at) = (Vector::new(-forward.tan(), -left.tan(), 1.0), mount.translation.vector);
+        let level = UnitQuaternion::rotation_between(&up, &Vector::z()).unwrap_or_default();
+        let (roll, pitch, yaw) = (mount.rotation.inverse() * level * mount.rotation).euler_angles();
+        let below = self.height.value - up.x * at.x - up.y * at.y;
+        let height = Estimate { value: at.z - (at.z - below) / up.norm(), ..self.height };
         SensorChange {
-            turn_deg: [-found(&self.left, TILT_DEG), found(&self.forward, TILT_DEG), 0.0],
-            shift_m: [0.0, 0.0, -found(&self.height, OFFSET)],
+            turn_deg: [roll, pitch, yaw].map(|turn| (turn.to_degrees() * 1000.0).round() / 1000.0),
+            shift_m: [0.0, 0.0, -found(&height, OFFSET)],
             ..SensorChange::default()
         }
     }
@@ -137,4 +152,40 @@ impl Seen {
 
 fn is_beyond(estimate: &Estimate, limit: f64) -> bool {
     estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf::space::Point;
+
+    /// A LiDAR that is pitched and rolled by mistake, however it is mounted: with the remedy the road is z = 0.
+    #[test]
+    fn the_remedy_puts_the_road_level_however_the_lidar_is_mounted() {
+        let sure = |value: f64| Estimate { value, error: 1e-3 };
+        for (yaw, roll) in [(0.0, 0.0), (90.0, 0.0), (-90.0, 0.0), (180.0, 0.0), (30.0, 180.0)] {
+            let [yaw, roll] = [yaw, roll].map(f64::to_radians);
+            let right = Transform::from_parts(
+                Vector::new(3.8, -0.4, 1.6).into(),
+                UnitQuaternion::from_euler_angles(roll, 0.0, yaw),
+            );
+            let (forward, left) = (5.0_f64.to_radians(), -3.0_f64.to_radians());
+            let mistake = UnitQuaternion::from_euler_angles(left, -forward, 0.0);
+            let place = (right.translation.vector + Vector::new(0.0, 0.0, 0.5)).into();
+            let recorded = Transform::from_parts(place, mistake * right.rotation);
+            // The road as it seems: three points of it, and the plane through these.
+            let seen = [(0.0, 0.0), (10.0, 0.0), (0.0, 10.0)]
+                .map(|(x, y)| recorded * (right.inverse() * Point::new(x, y, 0.0)));
+            let normal = (seen[1] - seen[0]).cross(&(seen[2] - seen[0])).normalize();
+            let slopes = [-normal.x / normal.z, -normal.y / normal.z];
+            let height = seen[0].z - slopes[0] * seen[0].x - slopes[1] * seen[0].y;
+            let [forward, left] = slopes.map(|slope| sure(slope.atan().to_degrees()));
+            let found = Seen { forward, left, height: sure(height), places: 9 }.remedy(&recorded);
+            let put_right = found.mount(&recorded);
+            for (x, y) in [(0.0, 0.0), (20.0, 0.0), (0.0, 20.0)] {
+                let road = put_right * (right.inverse() * Point::new(x, y, 0.0));
+                assert!(road.z.abs() < 0.05, "{yaw} {roll}: {road}");
+            }
+        }
+    }
 }

@@ -37,16 +37,26 @@ pub use refine::Refinement;
 /// rates and the LiDAR of all of them, with standard deviations. Nothing is applied.
 pub fn check_and_refine(sources: &[&dyn Source]) -> (Vec<SequenceCheck>, Vec<Refinement>) {
     let samples: Vec<Sample> = sources.iter().map(|source| Sample::in_rows(*source)).collect();
-    let judged = sources.iter().zip(&samples).map(|(source, sample)| judge(*source, sample));
+    let judged = sources.iter().zip(&samples).map(|(source, sample)| with_figures(judge(*source, sample)));
     let (checked, mut cases): (Vec<_>, Vec<_>) = judged.unzip();
     (checked, refine::refine(&mut cases))
 }
 
 /// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the
-/// sequence; those that can't be read are left out, and this is said.
+/// sequence; those that can't be read are left out, and this is said. What pictures show is left out.
 pub fn check(source: &dyn Source) -> SequenceCheck {
     let sample = Sample::of(source);
     judge(source, &sample).0
+}
+
+/// The same with what pictures show.
+pub fn check_with_figures(source: &dyn Source) -> SequenceCheck {
+    let sample = Sample::of(source);
+    with_figures(judge(source, &sample)).0
+}
+
+fn with_figures<'a>((checked, case): (SequenceCheck, Case<'a>)) -> (SequenceCheck, Case<'a>) {
+    (SequenceCheck { figures: case.figures(), ..checked }, case)
 }
 
 fn judge<'a>(source: &'a dyn Source, sample: &'a Sample) -> (SequenceCheck, Case<'a>) {
@@ -54,25 +64,26 @@ fn judge<'a>(source: &'a dyn Source, sample: &'a Sample) -> (SequenceCheck, Case
     let mut verdicts = bounds::judge(sequence, sample);
     if let Some(first) = sample.unreadable.first() {
         let evidence = format!("{} scans can't be read, the first: {first}", sample.unreadable.len());
-        verdicts.push(Verdict::new(&sequence.name, Question::Bounds, State::Fact, evidence));
+        let state = if sample.lacks_a_sensor(sequence) { State::Doubt } else { State::Fact };
+        verdicts.push(Verdict::new(&sequence.name, Question::Bounds, state, evidence));
     }
     verdicts.extend(order::judge(source, sample, &unfit(&verdicts)));
     let mut case = Case::new(sequence, sample, unfit(&verdicts));
     verdicts.extend(motion::judge(&mut case));
     verdicts.extend(clocks::judge(&mut case));
-    verdicts.extend(wheels::judge(&case));
+    let of_wheels = wheels::judge(&case, &mut verdicts);
+    verdicts.extend(of_wheels);
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
     verdicts.extend(compensated::judge(&case));
     verdicts.extend(neighbours::judge(&mut case));
-    verdicts.extend(vertical::judge(&case));
     verdicts.extend(ground::judge(&case));
+    verdicts.extend(vertical::judge(&case, &verdicts));
     let of_pictures = [cameras::judge(&case, &verdicts), depth::judge(&case, &verdicts)];
     verdicts.extend(of_pictures.into_iter().flatten());
-    let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);
     verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));
-    (SequenceCheck { name: sequence.name.clone(), verdicts, figures }, case)
+    (SequenceCheck { name: sequence.name.clone(), verdicts, figures: Vec::new() }, case)
 }
 
 /// Words of remedies for what can't be asked anything else.

@@ -23,6 +23,9 @@ const UNIT: f64 = 0.4;
 /// Speeds this share higher and lower than the right one fit worse.
 const BESIDE: f64 = 0.3;
 
+/// Motions by which less of what a LiDAR saw lies on what it sees later say nothing, for no other one fits.
+const FITS: f64 = 0.3;
+
 /// Judges the motion, and puts right what is found for those who come after.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     let changes: Vec<MotionChange> = candidates().collect();
@@ -170,7 +173,9 @@ fn seen_turning(case: &Case, radars: Vec<usize>) -> Turning {
 /// A factor of the yaw rate, measured: the unit that it was taken for, or else what fits.
 fn measured(case: &Case, unit: f64) -> f64 {
     let factor = seen_turning(case, case.radars().collect()).factor();
-    let is_unit = unit < 0.0 || !factor.is_finite() || (factor / unit - 1.0).abs() < UNIT;
+    // Without range rates nothing is measured.
+    let is_told = factor.is_finite() && factor > 0.0;
+    let is_unit = unit < 0.0 || !is_told || (factor / unit - 1.0).abs() < UNIT;
     if is_unit { unit } else { (factor * 1000.0).round() / 1000.0 }
 }
 
@@ -189,6 +194,8 @@ fn agreement(case: &Case, explained: usize, lidar: &Tally) -> Verdict {
             );
             Verdict::cannot_judge("motion", Question::Motion, missing)
         }
+        // Another motion would have to fit better, and none that is tried does: it may be none of these.
+        (0, true) if lidar.share() < FITS => Verdict::cannot_judge("motion", Question::Motion, of_lidar),
         (0, true) => Verdict::good("motion", Question::Motion, of_lidar),
         (radars, false) => {
             Verdict::good("motion", Question::Motion, format!("range rates of {radars} radars go with it"))

@@ -2,6 +2,7 @@
 //! the other sign or be another field, or it is rolled or pitched.
 
 use super::alternatives::{best, gain_of_one};
+use super::cameras::is_lidar_doubted;
 use super::case::Case;
 use super::places::{PLACE, PLACES, by_place};
 use crate::bounds::one_elevation;
@@ -26,8 +27,12 @@ const SURE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 const MOST: f64 = 0.6;
 
 /// Judges each radar that measures elevation; nothing is said of those in order. From one place it sees the same few
-/// low things in every scan, and how high their strongest spots are is theirs: several places are needed.
-pub(super) fn judge(case: &Case) -> Vec<Verdict> {
+/// low things in every scan, and how high their strongest spots are is theirs: several places are needed. A LiDAR that
+/// is tilted or too high says nothing of heights.
+pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
+    if is_lidar_doubted(case, known) {
+        return Vec::new();
+    }
     let places = by_place(case.lidars.iter().copied().filter(|look| look.lidar == 0), &case.motion).len();
     case.radars().filter_map(|radar| one(case, radar, places)).collect()
 }

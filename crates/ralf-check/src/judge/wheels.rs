@@ -17,20 +17,34 @@ use ralf::space::EgoMotion;
 /// Times that put less right are nothing that labels notice: 0.06 m/s, what a scan's range rates just tell.
 const NOTICED: f64 = YAW_RATE_GAIN.1 * LEVER;
 
-/// Judges odometry that is recorded beside poses; nothing where there is but one of both.
-pub(super) fn judge(case: &Case) -> Vec<Verdict> {
+/// Judges odometry that is recorded beside poses; nothing where there is but one of both. What was found of the motion
+/// so far is of the poses alone where odometry doesn't go with them as they are recorded: settings would change both.
+pub(super) fn judge(case: &Case, known: &mut [Verdict]) -> Vec<Verdict> {
     let recorded = &case.sequence.motion;
+    let has_poses = !recorded.poses().is_empty();
+    of_poses(known, |remedy| has_poses && matches!(remedy, Remedy::YawRate(_)));
     let odometry = EgoMotion::new(recorded.odometry().to_vec(), vec![]);
-    let Some(odometry) = odometry.filter(|_| !recorded.poses().is_empty()) else { return Vec::new() };
+    let Some(odometry) = odometry.filter(|_| has_poses) else { return Vec::new() };
     let as_recorded = Wheels::of(case, odometry.clone(), &used_motion(recorded));
     let doubts = as_recorded.doubts();
     if doubts.is_empty() {
         return vec![as_recorded.agreement()];
     }
+    of_poses(known, |_| true);
     // Poses that were wrong and are put right say nothing against odometry that goes with them now.
     let put_right = Wheels::of(case, odometry, &case.motion);
     let doubts = put_right.doubts();
     if doubts.is_empty() { vec![put_right.agreement()] } else { doubts }
+}
+
+/// Has remedies of the motion be those of its poses alone.
+fn of_poses(known: &mut [Verdict], which: impl Fn(&Remedy) -> bool) {
+    for verdict in known.iter_mut().filter(|verdict| verdict.subject == "motion") {
+        verdict.remedy = match verdict.remedy.take() {
+            Some(remedy) if which(&remedy) => Some(remedy.of_poses()),
+            other => other,
+        };
+    }
 }
 
 /// Odometry beside the poses it is compared with.

@@ -8,8 +8,6 @@ use ralf::sensors::Rig;
 use ralf::space::{EgoMotion, Transform};
 use std::cell::OnceCell;
 
-/// Beside: in plan, m. Radars smear by their azimuth, LiDARs by the width of a thing that both see from two sides.
-const BESIDE: f64 = 0.4;
 /// Two radars see the same within this distance of either, m; the vehicle itself is nearer.
 const RANGES: std::ops::Range<f64> = 1.0..40.0;
 /// Scans of the other radar this far from its nearest one are laid over it, for one alone is sparse, ns.
@@ -83,8 +81,8 @@ impl<'a> RadarPair<'a> {
                     continue;
                 }
                 let field = seen.field.get_or_init(|| self.laid_over(seen.t_ns));
-                if let Some(distance) = field.distance(p.x, p.y) {
-                    found[0] += f64::from(distance <= BESIDE);
+                if let Some(is_beside) = field.is_beside(p.x, p.y) {
+                    found[0] += f64::from(is_beside);
                     found[1] += 1.0;
                 }
             }
@@ -139,8 +137,8 @@ impl LidarPair<'_> {
             let mut found = [0.0; 2];
             for probe in &look.probes {
                 let p = place * change.place(&(sensor_from_recorded * probe));
-                if let Some(distance) = seen.field.distance(p.x, p.y) {
-                    found[0] += f64::from(distance <= BESIDE);
+                if let Some(is_beside) = seen.field.is_beside(p.x, p.y) {
+                    found[0] += f64::from(is_beside);
                     found[1] += 1.0;
                 }
             }

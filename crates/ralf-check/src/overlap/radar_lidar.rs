@@ -8,8 +8,6 @@ use ralf::sensors::Rig;
 use ralf::space::EgoMotion;
 use ralf::space::{Point, Transform};
 
-/// Beside: in plan, m. Five standard deviations of a radar's range, and half a car's flank.
-const BESIDE: f64 = 0.4;
 /// Farther detections are smeared by their azimuth, m.
 const FARTHEST: f64 = 40.0;
 /// Nearer ones are the vehicle itself, m.
@@ -140,11 +138,12 @@ fn count(
             continue;
         }
         let p = way.of(&change.place(position));
-        let Some(distance) = lidar.field.distance(p.x, p.y) else { continue };
+        let Some(is_beside) = lidar.field.is_beside(p.x, p.y) else { continue };
+        let is_far = || lidar.field.distance(p.x, p.y).is_some_and(|distance| distance >= FAR);
         let counted = match measure {
-            Measure::Beside => Some(f64::from(distance <= BESIDE)),
-            Measure::OnRoad => is_on_road(lidar, &p, range).filter(|_| distance >= FAR).map(f64::from),
-            Measure::AsHigh => is_as_high(lidar, &p).filter(|_| distance <= BESIDE).map(f64::from),
+            Measure::Beside => Some(f64::from(is_beside)),
+            Measure::OnRoad => is_on_road(lidar, &p, range).filter(|_| is_far()).map(f64::from),
+            Measure::AsHigh => is_as_high(lidar, &p).filter(|_| is_beside).map(f64::from),
             Measure::Smooth => {
                 lidar.field.smooth_distance(p.x, p.y).map(|distance| 1.0 - distance * distance)
             }

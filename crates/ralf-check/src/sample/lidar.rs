@@ -1,5 +1,6 @@
 //! What is kept of a LiDAR's scan.
 
+use super::digest;
 use super::shape::CloudShape;
 use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
@@ -8,7 +9,6 @@ use crate::plan_field::PlanField;
 use crate::thinning::{returns, some};
 use ralf::sensors::{LidarScan, Source};
 use ralf::space::Point;
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Points kept of a LiDAR scan.
 const LIDAR_POINTS: usize = 60_000;
@@ -68,8 +68,6 @@ impl LidarLook {
     }
 
     pub(super) fn of(source: &dyn Source, (lidar, scan): (usize, usize), read: &LidarScan) -> Self {
-        let mut hasher = DefaultHasher::new();
-        read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
         let returns = returns(read.points.iter().copied());
         let kept = some(&returns, LIDAR_POINTS);
@@ -101,7 +99,7 @@ impl LidarLook {
             ground,
             misread,
             shape: CloudShape::of(&returns, read.points.len()),
-            digest: hasher.finish(),
+            digest: digest(read.points.as_flattened()),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::picture::{Moment, Pictures};
 use crate::thinning::spread;
 pub(crate) use lidar::LidarLook;
 pub(crate) use radar::RadarLook;
-use ralf::sensors::Source;
+use ralf::sensors::{Sequence, Source};
 pub(crate) use shape::is_absurd;
 use std::collections::BTreeSet;
 
@@ -33,6 +33,16 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
+    /// Whether there is a radar or a LiDAR none of whose scans could be read.
+    pub(crate) fn lacks_a_sensor(&self, sequence: &Sequence) -> bool {
+        let times = &sequence.times;
+        let radars = times.radars.iter().zip(&self.radars);
+        let is_read = |lidar: usize| self.lidars.iter().any(|look| look.lidar == lidar);
+        let mut lidars = times.lidars.iter().enumerate();
+        radars.into_iter().any(|(times, looks)| !times.is_empty() && looks.is_empty())
+            || lidars.any(|(lidar, times)| !times.is_empty() && !is_read(lidar))
+    }
+
     /// Reads evenly spread scans.
     pub(crate) fn of(source: &dyn Source) -> Self {
         Self::with_scans_around(source, 0)
@@ -86,6 +96,14 @@ impl Sample {
             }
         }
     }
+}
+
+/// Numbers as one: the same ones again have the same, and others, but for chance, another one.
+fn digest<'a>(numbers: impl IntoIterator<Item = &'a f32>) -> u64 {
+    let mixed = |digest: u64, number: &f32| {
+        (digest.rotate_left(5) ^ u64::from(number.to_bits())).wrapping_mul(0x517c_c1b7_2722_0a95)
+    };
+    numbers.into_iter().fold(0, mixed)
 }
 
 /// Scans evenly over a timeline, each with the one that comes [`LAG_NS`] later.

@@ -1,10 +1,10 @@
 //! What is kept of a radar's scan.
 
+use super::digest;
 use crate::velocity_fit::{TRUSTED, Told, VelocityFit, fit, told};
 use ralf::scene::Doppler;
 use ralf::sensors::{Elevation, Radar, RadarScan, Source, SourceError};
 use ralf::space::{Point, Vector};
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A radar's scan.
 #[derive(Debug, Clone)]
@@ -49,8 +49,6 @@ impl RadarLook {
     }
 
     fn of(radar: &Radar, scan: usize, read: &RadarScan) -> Self {
-        let mut hasher = DefaultHasher::new();
-        read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let finite = |p: &Point| p.coords.iter().all(|v| v.is_finite());
         let positions: Vec<Point> = read.positions.iter().copied().filter(finite).collect();
         let (without, rates_without) = rays_and_rates(&told(radar, read, Doppler::COMPENSATED));
@@ -76,7 +74,7 @@ impl RadarLook {
             range_rates,
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
             told: as_told(radar, read),
-            digest: hasher.finish(),
+            digest: digest(read.columns.iter().flatten()),
         }
     }
 }

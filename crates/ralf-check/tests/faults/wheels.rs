@@ -2,7 +2,7 @@
 
 use crate::recording::{Planted, Recording};
 use crate::{STRAIGHT, TURNING, told};
-use ralf::space::OdometrySample;
+use ralf::space::{OdometrySample, PoseSample};
 use ralf_check::{Remedy, SequenceCheck, Verdict, check};
 use ralf_sim::world::{FAMILIES, Recording as World};
 use std::sync::Arc;
@@ -131,9 +131,35 @@ fn odometry_is_right_where_the_poses_are_not() {
     });
     let found = check(&planted);
     let own = of_motion(&found);
-    let of_poses = |verdict: &&&Verdict| matches!(verdict.remedy, Some(Remedy::Speed(_)));
+    // Settings would scale the odometry, too.
+    let of_poses = |verdict: &&&Verdict| {
+        let remedy = verdict.remedy.as_ref();
+        remedy
+            .is_some_and(|remedy| matches!(remedy, Remedy::Poses(_)) && remedy.settings("motion").is_empty())
+    };
     assert!(own.iter().filter(of_poses).count() == 1, "{own:?}");
     assert!(!told(&found).contains("odometry"), "{}", told(&found));
+}
+
+/// A clock that both have, and poses that turn the other way round, with odometry beside them or without.
+#[test]
+fn settings_are_proposed_where_they_put_right_what_is_wrong() {
+    let base = Recording::of(TURNING, 160, 2);
+    let late = |pose: &mut PoseSample| pose.t_ns += S / 2;
+    let mut both = with_poses(&base);
+    both.edit_odometry(|sample| sample.t_ns += S / 2);
+    both.replace_poses(|poses| poses.iter_mut().for_each(late));
+    let remedies = |planted: &Planted| {
+        let found = check(planted);
+        let of_motion = found.doubts().filter(|verdict| verdict.subject == "motion");
+        of_motion.filter_map(|verdict| verdict.remedy.clone()).collect::<Vec<_>>()
+    };
+    let is_clock = |remedy: &Remedy| matches!(remedy, Remedy::MotionClock(ms) if (ms + 500.0).abs() < 100.0);
+    assert!(remedies(&both).iter().any(is_clock), "{:?}", remedies(&both));
+    let mut poses_alone = with_poses(&base);
+    poses_alone.replace_poses(|poses| poses.iter_mut().for_each(late));
+    let found = remedies(&poses_alone);
+    assert!(!found.is_empty() && found.iter().all(|one| one.settings("motion").is_empty()), "{found:?}");
 }
 
 #[test]

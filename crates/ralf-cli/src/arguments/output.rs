@@ -5,6 +5,7 @@ use anyhow::Context;
 use ralf::learned::Model;
 use ralf_data::read::refuse_own_places;
 use ralf_data::{DataError, RECORD, SENSORS, SEQUENCES, real_path};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -26,10 +27,16 @@ pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> 
 }
 
 /// The same of a text that people edit: what they made of it is kept ([`ralf_data::write_editable`]).
-pub(crate) fn check_editable(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+pub(crate) fn check_editable(
+    argument: &str,
+    file: &Path,
+    begin: &str,
+    read_only: &[&Path],
+) -> anyhow::Result<()> {
     check_output(argument, file, read_only)?;
     let edited = |error: DataError| UsageError(format!("{argument}: {error}"));
-    Ok(ralf_data::refuse_edited(file).map_err(edited)?)
+    ralf_data::refuse_edited(file).map_err(edited)?;
+    refuse_other_beginning(argument, file, begin.as_bytes(), "nothing yet, or what this command wrote")
 }
 
 /// The same of a model: one that somebody changed, and any other text, is kept.
@@ -54,17 +61,25 @@ fn would_be_lost(argument: &str, file: &Path, expected: &str, found: &str) -> an
 /// The same of a page: any text but a page is kept, such as settings.
 pub(crate) fn check_page(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
     check_output(argument, file, read_only)?;
+    refuse_other_ending(argument, file, &["html", "htm"])?;
     refuse_other_beginning(argument, file, PAGE, "nothing yet, or a page")
 }
 
-/// The same of a picture: all but a picture is kept. A name that says that it is of another format is refused, too.
+/// The same of a picture: all but a picture is kept.
 pub(crate) fn check_picture(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
     check_output(argument, file, read_only)?;
-    if file.extension().is_some_and(|ending| !ending.eq_ignore_ascii_case("png")) {
-        let expected = "expected a name that ends in .png";
-        return Err(UsageError(format!("{argument}: {expected}, found {}", file.display())).into());
-    }
+    refuse_other_ending(argument, file, &["png"])?;
     refuse_other_beginning(argument, file, PNG, "nothing yet, or a picture (PNG)")
+}
+
+/// Refuses a name that says that the file is of another format. One without an ending says nothing.
+fn refuse_other_ending(argument: &str, file: &Path, endings: &[&str]) -> Result<(), UsageError> {
+    let is_one_of_them = |found: &OsStr| endings.iter().any(|ending| found.eq_ignore_ascii_case(ending));
+    if file.extension().is_none_or(is_one_of_them) {
+        return Ok(());
+    }
+    let found = file.display();
+    Err(UsageError(format!("{argument}: expected a name that ends in .{}, found {found}", endings[0])))
 }
 
 /// Refuses two places that are one: of two files only the later would be left.
@@ -201,12 +216,16 @@ mod tests {
         let place = |name: &str| folder.path().join(name);
         fs::write(place("page.html"), "<!doctype html><html lang=\"en\">").unwrap();
         fs::write(place("empty.html"), "").unwrap();
-        fs::write(place("tuned.toml"), "[lidar]").unwrap();
+        fs::write(place("Makefile"), "all:").unwrap();
+        fs::write(place("notes.html"), "mine").unwrap();
         let check = |name: &str| check_page("--output", &place(name), &[]).map_err(|error| error.to_string());
-        for name in ["page.html", "empty.html", "new.html"] {
+        for name in ["page.html", "empty.html", "new.html", "new.HTM", "new"] {
             assert_eq!(check(name), Ok(()), "{name}");
         }
-        assert!(check("tuned.toml").unwrap_err().contains("tuned.toml: expected nothing yet, or a page"));
+        for name in ["Makefile", "notes.html"] {
+            assert!(check(name).unwrap_err().contains("expected nothing yet, or a page"), "{name}");
+        }
+        assert!(check("new.pdf").unwrap_err().contains("expected a name that ends in .html"));
     }
 
     #[test]

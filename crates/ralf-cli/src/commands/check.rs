@@ -6,11 +6,11 @@ mod picture;
 
 use crate::arguments::{DatasetArgs, SettingsArgs, check_editable, check_picture, refuse_same};
 use crate::outcome::Outcome;
-use crate::progress::say;
+use crate::progress::{Progress, say};
 use crate::text::print;
 use clap::Args;
 use ralf::sensors::Source;
-use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
+use ralf_check::{Refinement, SequenceCheck, check_and_refine, check_with_figures};
 use ralf_data::SequenceReader;
 use std::path::{Path, PathBuf};
 
@@ -93,11 +93,20 @@ fn judged(
     let refining = if with_corrections { sequences.len().min(most) } else { 0 };
     let is_refined = |i: usize| (0..refining).any(|part| part * sequences.len() / refining == i);
     let some = (0..sequences.len()).filter(|i| is_refined(*i)).map(|i| sequences[i].as_ref() as &dyn Source);
+    let progress = Progress::of_steps(sequences.len() as u64, "checking sequences");
+    progress.tell(if refining > 0 {
+        format!("what to correct, from {refining} of them")
+    } else {
+        String::new()
+    });
     let (checked, refined) = check_and_refine(&some.collect::<Vec<_>>());
     let mut checked = checked.into_iter();
     let one = |i: usize| {
         let known = if is_refined(i) { checked.next() } else { None };
-        known.unwrap_or_else(|| check(sequences[i].as_ref()))
+        progress.tell(sequences[i].sequence().name.clone());
+        let checked = known.unwrap_or_else(|| check_with_figures(sequences[i].as_ref()));
+        progress.advance(1);
+        checked
     };
     ((0..sequences.len()).map(one).collect(), refined)
 }
@@ -107,7 +116,7 @@ impl CheckArgs {
     fn check_places(&self) -> anyhow::Result<()> {
         let recording: &Path = &self.dataset.dataset;
         if let Some(file) = &self.write {
-            check_editable("--write", file, &[recording])?;
+            check_editable("--write", file, fixes::BEGIN, &[recording])?;
         }
         if let Some(file) = &self.output {
             check_picture("--output", file, &[recording])?;

@@ -122,7 +122,7 @@ fn looks(recording: &Recording, config: &Config, quick: bool) -> Vec<Inspection>
 /// What the sensors say of each other, unless only times are looked at.
 fn checks(recording: &Recording, quick: bool) -> Vec<SequenceCheck> {
     let readers = recording.sequences.iter().filter(|_| !quick);
-    readers.map(|reader| ralf_check::check(reader.as_ref())).collect()
+    readers.map(|reader| ralf_check::check_with_figures(reader.as_ref())).collect()
 }
 
 fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspection {

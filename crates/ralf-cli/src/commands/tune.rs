@@ -97,7 +97,7 @@ impl TuneArgs {
             let expected = "--cross-validate: expected two sequences or more in --train";
             return Err(UsageError(expected.into()).into());
         }
-        check_editable("--output", &self.output, &self.search.read_only())
+        check_editable("--output", &self.output, text::BEGIN, &self.search.read_only())
     }
 
     fn tune(&self, base: &Config, Parts { train, test }: &Parts) -> anyhow::Result<Report> {

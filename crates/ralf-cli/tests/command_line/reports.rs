@@ -84,8 +84,10 @@ fn a_lidar_scan_that_cannot_be_read_costs_a_picture_its_points_alone() {
     plot(&["--scan", "1", "--camera", "camera_front"]).says([told]);
     plot(&["--all"]).says([told]);
     assert!(!plot(&["--scan", "0"]).stderr.contains(told));
-    let settings = dataset.beside("tuned.toml");
+    let settings = dataset.beside("tuned.html");
     fs::write(&settings, "[lidar]\nbeta = 0.5\n").unwrap();
     ralf(["report", &dataset.path, &dataset.out, "-o", &settings]).exits(2).says(["which would be lost"]);
+    let pdf = dataset.beside("report.pdf");
+    ralf(["report", &dataset.path, &dataset.out, "-o", &pdf]).exits(2).says(["a name that ends in .html"]);
     assert!(fs::read_to_string(&settings).unwrap().starts_with("[lidar]"));
 }

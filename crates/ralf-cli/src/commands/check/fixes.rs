@@ -7,6 +7,9 @@ use ralf_check::{Question, Refinement, Remedy, SensorChange, SequenceCheck, Sett
 use ralf_data::Settings;
 use totals::{Line, Lines, TOLD, totals};
 
+/// How such a file begins.
+pub(crate) const BEGIN: &str = "# What `ralf check` proposes.";
+
 /// The text of the file: remedies of what is doubted, and refined corrections of the radars, with those that the
 /// recording was read with. A later settings file wins over an earlier one, key by key: the whole is told.
 pub(crate) fn text(
@@ -14,8 +17,8 @@ pub(crate) fn text(
     refined: &[Refinement],
     given: &Settings,
 ) -> Result<String, ConfigError> {
-    let mut text = String::from(
-        "# What `ralf check` proposes. Each line is an offer: look at it, and take out what you know better.\n\
+    let mut text = format!(
+        "{BEGIN} Each line is an offer: look at it, and take out what you know better.\n\
          # Corrections are added to what the recording says; ralf label takes them with a --config of their own.\n",
     );
     let lines = proposed(checks, refined);
@@ -40,7 +43,10 @@ fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
             add(&mut lines, setting, denied.as_ref().unwrap_or(&note), is_told);
         }
     }
-    for verdict in doubted(checks) {
+    // Of values of one key that which was measured stands before one that is only the usual reason.
+    let is_guess = |verdict: &&Verdict| verdict.question == Question::Bounds;
+    let (guessed, measured): (Vec<_>, Vec<_>) = doubted(checks).partition(is_guess);
+    for verdict in measured.into_iter().chain(guessed) {
         let Some(remedy) = verdict.remedy.as_ref() else { continue };
         if !(is_refined(checks, refined, &verdict.subject) && is_plan(remedy)) {
             let denied = denied(checks, verdict);
@@ -255,6 +261,15 @@ mod tests {
     fn with(name: &str, verdicts: Vec<Verdict>) -> SequenceCheck {
         let figures = vec![RadarFigures { name: "radar".to_owned(), ..RadarFigures::default() }];
         SequenceCheck { name: name.to_owned(), verdicts, figures }
+    }
+
+    #[test]
+    fn what_was_measured_stands_before_what_is_the_usual_reason() {
+        let [usual, measured] = [0.01, 1.0 / 3.6].map(Remedy::Speed);
+        let verdicts =
+            vec![doubt("motion", Question::Bounds, usual), doubt("motion", Question::Motion, measured)];
+        let text = text(&[with("00", verdicts)], &[]);
+        assert!(text.contains("\nmotion.speed_factor = 0.277778\n"), "{text}");
     }
 
     #[test]

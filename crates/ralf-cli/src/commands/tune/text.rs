@@ -33,6 +33,9 @@ pub(super) fn page(report: &Report) -> String {
     parts.join("\n")
 }
 
+/// How the file of tuned settings begins.
+pub(super) const BEGIN: &str = "# Written by: ralf tune ";
+
 /// What the settings were tuned on and what they reach; `command` repeats it. The same for the same command.
 pub(super) fn comment(report: &Report, command: &str) -> String {
     let about = |what: &str, part: &Part| {
