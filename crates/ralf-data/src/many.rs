@@ -318,8 +318,10 @@ pub fn folders(recordings: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, DataE
         let name = whole.file_name().unwrap_or_default().to_string_lossy();
         let refused = |found| DataError::Name { kind: "recording".into(), name: name.to_string(), found };
         let folder = out.join(Component::new(&name).map_err(refused)?.as_str());
-        if found.contains(&folder) {
-            return Err(refused("one that another recording has"));
+        if let Some(before) = found.iter().position(|known| *known == folder) {
+            let expected = format!("names of recordings that differ, for {name} is to be the folder of one");
+            let [one, other] = [&recordings[before], recording].map(|path| path.display().to_string());
+            return Err(DataError::content(out, "folder", expected, format!("{one} and {other}")));
         }
         found.push(folder);
     }

@@ -8,7 +8,7 @@ use crate::text::{counted, grouped, in_a_line, listed};
 use anyhow::Context;
 use clap::Args;
 use ralf_data::read::inspection::held_motion;
-use ralf_data::read::ros::Topics;
+use ralf_data::read::ros::{self, Topics};
 use ralf_data::read::{Incomplete, Lost};
 use ralf_data::result::LabelledRun;
 use ralf_data::{DataError, Recording, SequenceReader, Settings, open_selected};
@@ -75,6 +75,10 @@ impl DatasetArgs {
 
     fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
         let recording = open_selected(&self.dataset, self.format.as_deref(), topics, &self.sequences)?;
+        if let Some(file) = self.topics.as_ref().filter(|_| recording.format != ros::NAME) {
+            let (file, dataset) = (file.display(), self.dataset.display());
+            say(&format!("warning: --topics {file} is not used: {dataset} is no ROS recording"));
+        }
         Ok(recording.copied())
     }
 }

@@ -9,7 +9,7 @@ use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use ralf_data::Settings;
 use ralf_data::many::{self, Job};
-use ralf_data::run::{Earlier, Unwatched};
+use ralf_data::run::Earlier;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -179,7 +179,7 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
         say(&format!("task {}: nothing to do, for its recording was planned anew", arguments.task));
         return Ok(Outcome::Done);
     };
-    let done = many::label_one(&task, arguments.jobs, &Unwatched)?;
+    let done = many::label_one(&task, arguments.jobs, &Stages::default())?;
     let sequence = &task.stretch.sequence;
     labelled_without(sequence, &done.unreadable, &done.cameras).for_each(|line| say(&line));
     for scan in &done.not_labelled {

@@ -30,6 +30,16 @@ fn a_camera_whose_frame_nobody_tells_is_left_out() {
 }
 
 #[test]
+fn topics_of_what_is_no_ros_recording_are_told_to_be_idle() {
+    let dataset = Dataset::new();
+    let file = dataset.beside("topics.toml");
+    fs::write(&file, "[topics]\ntf = { topic = '/tf', kind = 'tf' }\n").unwrap();
+    ralf(["inspect", &dataset.path, "--quick", "--topics", &file])
+        .exits(0)
+        .says(["topics.toml is not used: ", "is no ROS recording"]);
+}
+
+#[test]
 fn a_guess_is_written_once_and_never_over_another_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = beside(&folder, "ralf.toml");

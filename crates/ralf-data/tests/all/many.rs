@@ -265,6 +265,6 @@ fn every_recording_has_a_folder_of_its_name() {
     let out = Path::new("out");
     assert_eq!(folders(&paths(&["/a/x", "b/y.mcap"]), out).unwrap(), paths(&["out/x", "out/y.mcap"]));
     let twice = folders(&paths(&["/a/x", "/b/x"]), out).unwrap_err().to_string();
-    assert!(twice.contains("another recording"), "{twice}");
+    assert!(twice.contains("found /a/x and /b/x"), "{twice}");
     assert!(folders(&paths(&["/a/.."]), out).is_err());
 }

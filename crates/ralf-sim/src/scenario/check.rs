@@ -1,10 +1,17 @@
 //! Which values of a scenario exist in the world.
 
-use super::{CameraFailure, Drive, Scenario, ScenarioError, Thing};
+use super::{CameraFailure, Drive, Leg, Scenario, ScenarioError, Thing};
+use crate::kind::Kind;
 use crate::vehicle::rig;
 
 /// The vehicle stays below this, km/h. Those of the presets stay below 10 km/h, as in the paper.
 const MAX_SPEED_KMH: f64 = 130.0;
+
+/// No part of a way is shorter, m.
+const SHORTEST_LEG: f64 = 0.01;
+/// No turn is tighter, m, nor over sooner, s: odometry tells of it in some ten samples.
+const TIGHTEST_TURN: f64 = 1.0;
+const SOONEST_TURN_S: f64 = 0.2;
 
 /// No row of things is longer.
 const MOST: usize = 1000;
@@ -20,7 +27,7 @@ const LARGE: f64 = 1e9;
 impl Thing {
     /// How much room it takes, of a row all of it: volume, with what walls and edges count for, in m3 or so.
     fn bulk(&self) -> f64 {
-        let [length, width, height] = self.size.unwrap_or([1.0; 3]);
+        let [length, width, height] = self.size.unwrap_or_else(|| self.kind.usual_size());
         self.count as f64 * (length * width * height.max(1.0) + 20.0 * (length + width))
     }
 
@@ -46,7 +53,7 @@ impl Scenario {
         }
         match self.places().find(|(_, value)| value.is_nan() || value.abs() > FARTHEST) {
             Some((key, value)) => refuse(key, "a number from -100000 to 100000", value),
-            None => Ok(()),
+            None => self.check_turns(),
         }
     }
 
@@ -58,8 +65,23 @@ impl Scenario {
         if !(*speed_kmh > 0.0 && *speed_kmh < MAX_SPEED_KMH) {
             return refuse("ego.speed_kmh", "a speed above 0 and below 130 km/h", *speed_kmh);
         }
-        match leg.iter().find(|leg| !(leg.length > 0.0 && leg.length.is_finite())) {
-            Some(leg) => refuse("ego.leg.length", "a length above 0 m", leg.length),
+        let is_no_length = |leg: &&Leg| !(leg.length >= SHORTEST_LEG && leg.length.is_finite());
+        match leg.iter().find(is_no_length) {
+            Some(leg) => refuse("ego.leg.length", "a length of 0.01 m or more", leg.length),
+            None => Ok(()),
+        }
+    }
+
+    fn check_turns(&self) -> Result<(), ScenarioError> {
+        let Drive { speed_kmh, leg, .. } = &self.ego;
+        let soonest = SOONEST_TURN_S * speed_kmh / 3.6;
+        let least = |leg: &Leg| soonest.max(TIGHTEST_TURN * leg.turn_deg.abs().to_radians());
+        match leg.iter().find(|leg| leg.turn_deg != 0.0 && leg.length < least(leg)) {
+            Some(leg) => {
+                let expected =
+                    format!("{:.2} m or more for a turn of {} degrees", least(leg), short(leg.turn_deg));
+                refuse("ego.leg.length", &expected, leg.length)
+            }
             None => Ok(()),
         }
     }
@@ -68,6 +90,13 @@ impl Scenario {
         let sizes = self.thing.iter().filter_map(|thing| thing.size).flatten();
         if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && size.is_finite())) {
             return refuse("thing.size", "lengths above 0 m", size);
+        }
+        let is_oval = |thing: &&Thing| thing.size.is_some_and(|[length, width, _]| length != width);
+        let is_round = |thing: &&Thing| matches!(thing.kind, Kind::Pole | Kind::Pedestrian);
+        if let Some(thing) = self.thing.iter().filter(is_round).find(is_oval) {
+            let [length, width, _] = thing.size.unwrap_or_default();
+            let expected = format!("a width that is the length, {length} m, of what is round");
+            return refuse("thing.size", &expected, width);
         }
         if let Some(thing) = self.thing.iter().find(|thing| !(1..=MOST).contains(&thing.count)) {
             return refuse("thing.count", "1 to 1000", thing.count as f64);
@@ -178,6 +207,36 @@ mod tests {
         for fine in [row(10, ""), row(1000, ", step = [0.0, -0.5]")] {
             let text = format!("title = 'x'\n{fine}\nego = {{ start = [0, 0, 0], speed_kmh = 7 }}");
             Scenario::from_toml(&text).unwrap();
+        }
+    }
+
+    /// Odometry tells how fast a vehicle turns at moments: of a turn between two of them it would know nothing.
+    #[test]
+    fn a_turn_on_the_spot_is_refused() {
+        let leg = |length: &str, turn: &str| format!(", leg = [{{ length = {length}, turn_deg = {turn} }}]");
+        let told = |least: &str, turn: &str, found: &str| {
+            format!("ego.leg.length: expected {least} m or more for a turn of {turn} degrees, found {found}")
+        };
+        refused(&leg("0.05", "90"), "", &told("1.57", "90", "0.05"));
+        refused(&leg("1.5", "-90"), "", &told("1.57", "-90", "1.5"));
+        refused(&leg("0.3", "1"), "", &told("0.39", "1", "0.3"));
+        let told = "ego.leg.length: expected a length of 0.01 m or more, found ";
+        refused(&leg("1e-320", "0"), "", &format!("{told}{}", 1e-320));
+        for fine in [leg("1.6", "90"), leg("0.05", "0"), leg("0.4", "-1")] {
+            let text = format!("title = 'x'\nego = {{ start = [0, 0, 0], speed_kmh = 7{fine} }}");
+            Scenario::from_toml(&text).unwrap();
+        }
+    }
+
+    #[test]
+    fn what_is_round_has_one_width_and_usual_sizes_count() {
+        let thing = |kind: &str, more: &str| format!("thing = [{{ kind = '{kind}', at = [5, 5]{more} }}]");
+        let told = "thing.size: expected a width that is the length, 0.2 m, of what is round, found 3";
+        refused("", &thing("pole", ", size = [0.2, 3, 4]"), told);
+        let rows = ", count = 1000, step = [20, 0]";
+        let told = "thing.size: expected things that fill a few streets, in all, found 1740000";
+        for size in ["", ", size = [14, 10, 9]"] {
+            refused("", &thing("building", &format!("{rows}{size}")), told);
         }
     }
 
