@@ -3,7 +3,7 @@
 use crate::met::meets_any;
 use crate::outcome::{History, Step};
 use rusqlite::{Connection, OptionalExtension, params};
-use std::collections::{BTreeSet, HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, HashSet, VecDeque};
 
 /// A stroke, and the event that set it or took it back last.
 #[derive(Clone, Copy)]
@@ -45,7 +45,9 @@ impl Steps<'_> {
              ORDER BY applied DESC, id DESC",
         )?);
         let mut steps = Vec::new();
-        while let Some(step) = left.next(on)?.filter(|_| steps.len() < wanted) {
+        while steps.len() < wanted
+            && let Some(step) = left.next(on)?
+        {
             steps.extend(self.there(on, step)?);
         }
         Ok(steps)
@@ -122,15 +124,15 @@ impl Left {
         let Some((last, name)) = self.strokes.pop_front() else { return Ok(None) };
         let mut step = vec![last];
         let Some(name) = name else { return Ok(Some(step)) };
-        let (mut between, all) = (Vec::new(), self.of_step[&name]);
+        let (mut between, mut met, all) = (Vec::new(), HashSet::new(), self.of_step[&name]);
         while step.len() < all {
             let Some(before) = self.strokes.pop_front() else { break };
             if before.1.as_ref() != Some(&name) {
+                met.insert(before.0.id);
                 between.push(before);
                 continue;
             }
-            let later: Vec<i64> = between.iter().map(|(stroke, _): &Named| stroke.id).collect();
-            if meets_any(on, before.0.id, &later)? {
+            if meets_any(on, before.0.id, &met)? {
                 self.strokes.push_front(before);
                 break;
             }

@@ -50,7 +50,8 @@ pub struct Stroke {
     pub sequence: String,
     /// The tool's name, such as `lasso`.
     pub tool: String,
-    /// Strokes in a row with the same group are undone and redone together.
+    /// Strokes with the same group are undone and redone together, but for those that the author did something upon
+    /// between them.
     pub group: Option<String>,
     /// Leave detections as they are that a person has corrected before.
     pub protect: bool,

@@ -57,7 +57,7 @@ impl Reader {
     /// Only those of the database itself.
     pub fn empty(file: &Path) -> Result<Self, StoreError> {
         let connection = schema::nowhere().map_err(told(file))?;
-        let snapshot = Some(Lying::at(file));
+        let snapshot = Some(Lying(None, false));
         Ok(Self { connection, file: file.to_owned(), identity: None, snapshot })
     }
 

@@ -75,7 +75,7 @@ def test_labels_of_other_settings_that_are_removed_are_a_warning(drive, tmp_path
 
 
 def test_two_recordings_of_one_name_are_refused(drive, tmp_path):
-    with pytest.raises(ralf.RalfError, match="another recording"):
+    with pytest.raises(ralf.RalfError, match="expected names of recordings that differ"):
         ralf.plan([drive, drive], tmp_path)
 
 

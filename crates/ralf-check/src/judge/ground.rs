@@ -15,6 +15,8 @@ use ralf::space::{EgoMotion, Transform, Vector};
 
 /// Scans that are needed: one may stand on a kerb.
 const FEWEST: usize = 3;
+/// A turn about the LiDAR's own upright axis that two tilts have besides, degrees.
+const SMALL_YAW_DEG: f64 = 0.5;
 /// No road is that steep, degrees, and no ramp that high, m: one place is enough.
 const NO_RAMP: (f64, f64) = (12.0, 1.5);
 
@@ -132,6 +134,8 @@ impl Seen {
         let (up, at) = (Vector::new(-forward.tan(), -left.tan(), 1.0), mount.translation.vector);
         let level = UnitQuaternion::rotation_between(&up, &Vector::z()).unwrap_or_default();
         let (roll, pitch, yaw) = (mount.rotation.inverse() * level * mount.rotation).euler_angles();
+        // Two tilts are none about the vertical: what an upright LiDAR's angles have of one is too little to be told.
+        let yaw = if yaw.to_degrees().abs() < SMALL_YAW_DEG { 0.0 } else { yaw };
         let below = self.height.value - up.x * at.x - up.y * at.y;
         let height = Estimate { value: at.z - (at.z - below) / up.norm(), ..self.height };
         SensorChange {

@@ -19,7 +19,8 @@ use std::f64::consts::PI;
 
 /// A direction that is off by more is no mounting that slipped, degrees: it may be mirrored.
 const SLIPPED_DEG: f64 = 12.0;
-/// Exchanged axes leave less than this share of what is left with another yaw.
+/// Exchanged axes leave less than this share of what is left with another yaw, a mirror of what is left with another
+/// sign.
 const EXCHANGED_GAIN: f64 = 0.6;
 /// No more than this is what walls do, m.
 const SMALL_SHIFT: f64 = 0.5;
@@ -125,6 +126,7 @@ fn of_large_angles(
     let found = by_overlap(case, radar, changes.into_iter().flatten());
     match (found, other_sign, changes) {
         (Some(change), _, _) => of_change(change),
+        (None, true, [_, Some(mirrored), _]) if is_rather_mirrored(case, radar) => Remedy::Sensor(mirrored),
         (None, true, _) => Remedy::Doppler(-1.0),
         (None, false, [_, Some(mirrored), _]) => Remedy::Sensor(mirrored),
         (None, false, [Some(turned), _, Some(_)]) if is_rather_exchanged(case, radar, &turned) => {
@@ -136,6 +138,13 @@ fn of_large_angles(
 
 fn of_change(change: SensorChange) -> Remedy {
     if change == SensorChange::exchange() { Remedy::Exchanged } else { Remedy::Sensor(change) }
+}
+
+/// Whether range rates alone tell that a radar that looks aside is mirrored and its range rates have no other sign: in
+/// turns of the vehicle.
+fn is_rather_mirrored(case: &Case, radar: usize) -> bool {
+    let [mirrored, negated] = [with_mirror, with_other_sign].map(|read| misfit(case, radar, read));
+    mirrored.is_some_and(|mirrored| negated.is_none_or(|negated| mirrored < EXCHANGED_GAIN * negated))
 }
 
 /// Whether range rates alone tell that x and y are exchanged and the radar isn't turned: in turns of the vehicle.
@@ -171,6 +180,10 @@ fn misfit(case: &Case, radar: usize, read: fn(Vector2<f64>) -> Vector2<f64>) -> 
 
 fn with_mirror(velocity: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(velocity.x, -velocity.y)
+}
+
+fn with_other_sign(velocity: Vector2<f64>) -> Vector2<f64> {
+    -velocity
 }
 
 fn with_exchange(velocity: Vector2<f64>) -> Vector2<f64> {

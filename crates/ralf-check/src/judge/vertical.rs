@@ -2,7 +2,6 @@
 //! the other sign or be another field, or it is rolled or pitched.
 
 use super::alternatives::{best, gain_of_one};
-use super::cameras::is_lidar_doubted;
 use super::case::Case;
 use super::places::{PLACE, PLACES, by_place};
 use crate::bounds::one_elevation;
@@ -10,7 +9,7 @@ use crate::change::SensorChange;
 use crate::overlap::{Measure, Tally, overlap};
 use crate::remedy::Remedy;
 use crate::sample::RadarLook;
-use crate::verdict::{Question, Verdict};
+use crate::verdict::{Question, State, Verdict};
 use ralf::sensors::Elevation;
 use ralf::space::Point;
 
@@ -30,18 +29,23 @@ const MOST: f64 = 0.6;
 /// low things in every scan, and how high their strongest spots are is theirs: several places are needed. A LiDAR that
 /// is tilted or too high says nothing of heights.
 pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
-    if is_lidar_doubted(case, known) {
-        return Vec::new();
+    let is_lidar = |name: &String| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == *name);
+    let is_doubt = |verdict: &Verdict| verdict.state == State::Doubt && verdict.question == Question::Ground;
+    let is_told = |radar: &usize| {
+        let sensor = &case.sequence.rig.radars[*radar];
+        sensor.elevation != Elevation::None && one_elevation(&case.sample.radars[*radar]).is_none()
+    };
+    if known.iter().any(|verdict| is_doubt(verdict) && is_lidar(&verdict.subject)) {
+        let missing = "the height or the tilt of a LiDAR is doubted: it has to be put right before";
+        let cannot = |radar| Verdict::cannot_judge(case.name(radar), Question::Lidar, missing);
+        return case.radars().filter(is_told).map(cannot).collect();
     }
     let places = by_place(case.lidars.iter().copied().filter(|look| look.lidar == 0), &case.motion).len();
-    case.radars().filter_map(|radar| one(case, radar, places)).collect()
+    case.radars().filter(is_told).filter_map(|radar| one(case, radar, places)).collect()
 }
 
 fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
     let sensor = &case.sequence.rig.radars[radar];
-    if sensor.elevation == Elevation::None || one_elevation(&case.sample.radars[radar]).is_some() {
-        return None;
-    }
     if places < PLACES {
         let missing = format!(
             "its roll and pitch are judged by low things seen from {PLACES} places: {:.0} m of driving are needed",

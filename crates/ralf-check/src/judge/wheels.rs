@@ -18,7 +18,8 @@ use ralf::space::EgoMotion;
 const NOTICED: f64 = YAW_RATE_GAIN.1 * LEVER;
 
 /// Judges odometry that is recorded beside poses; nothing where there is but one of both. What was found of the motion
-/// so far is of the poses alone where odometry doesn't go with them as they are recorded: settings would change both.
+/// so far is of the poses alone where odometry tells that very quantity otherwise than they do as they are recorded:
+/// settings would change both.
 pub(super) fn judge(case: &Case, known: &mut [Verdict]) -> Vec<Verdict> {
     let recorded = &case.sequence.motion;
     let has_poses = !recorded.poses().is_empty();
@@ -30,7 +31,7 @@ pub(super) fn judge(case: &Case, known: &mut [Verdict]) -> Vec<Verdict> {
     if doubts.is_empty() {
         return vec![as_recorded.agreement()];
     }
-    of_poses(known, |_| true);
+    of_poses(known, |remedy| as_recorded.contradicts(remedy));
     // Poses that were wrong and are put right say nothing against odometry that goes with them now.
     let put_right = Wheels::of(case, odometry, &case.motion);
     let doubts = put_right.doubts();
@@ -70,6 +71,15 @@ impl<'a> Wheels<'a> {
         }
         let clock = self.clock();
         if clock.is_some() { clock.into_iter().collect() } else { self.yaw_rate().into_iter().collect() }
+    }
+
+    /// Whether odometry tells what a remedy changes otherwise than the poses; a clock that is off by little is a fact.
+    fn contradicts(&self, remedy: &Remedy) -> bool {
+        match remedy {
+            Remedy::Speed(_) => self.speed().or_else(|| self.standing()).is_some(),
+            Remedy::MotionClock(_) => self.clock().is_some_and(|clock| clock.state == State::Doubt),
+            _ => false,
+        }
     }
 
     /// How far a speed times a factor is off in half of all moments, as a share.

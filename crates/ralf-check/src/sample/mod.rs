@@ -32,9 +32,15 @@ pub(crate) struct Sample {
     pub(crate) unreadable: Vec<String>,
 }
 
+/// That few scans can't be read says nothing of a sensor: of a short sequence no more may have been asked for.
+const SEVERAL: usize = 5;
+
 impl Sample {
-    /// Whether there is a radar or a LiDAR none of whose scans could be read.
+    /// Whether there is a radar or a LiDAR none of whose scans could be read, of several.
     pub(crate) fn lacks_a_sensor(&self, sequence: &Sequence) -> bool {
+        if self.unreadable.len() < SEVERAL {
+            return false;
+        }
         let times = &sequence.times;
         let radars = times.radars.iter().zip(&self.radars);
         let is_read = |lidar: usize| self.lidars.iter().any(|look| look.lidar == lidar);

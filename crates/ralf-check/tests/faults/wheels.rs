@@ -156,6 +156,17 @@ fn settings_are_proposed_where_they_put_right_what_is_wrong() {
     };
     let is_clock = |remedy: &Remedy| matches!(remedy, Remedy::MotionClock(ms) if (ms + 500.0).abs() < 100.0);
     assert!(remedies(&both).iter().any(is_clock), "{:?}", remedies(&both));
+    // Another quantity of the odometry, and a bus that is late by little, say nothing against it.
+    let mut other = with_poses(&base);
+    other.edit_odometry(|sample| {
+        (sample.velocity, sample.t_ns) = (sample.velocity * 3.6, sample.t_ns + S / 5)
+    });
+    other.replace_poses(|poses| {
+        poses.iter_mut().for_each(|pose| pose.odom_from_vehicle.translation.vector *= 3.6);
+    });
+    let is_unit =
+        |remedy: &Remedy| matches!(remedy, Remedy::Speed(factor) if (factor * 3.6 - 1.0).abs() < 1e-9);
+    assert!(remedies(&other).iter().any(is_unit), "{:?}", remedies(&other));
     let mut poses_alone = with_poses(&base);
     poses_alone.replace_poses(|poses| poses.iter_mut().for_each(late));
     let found = remedies(&poses_alone);

@@ -2,7 +2,7 @@
 
 use super::error::ContainerError;
 use super::loss::Loss;
-use super::recognises;
+use super::{bag_format, beginning, db3};
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
@@ -42,19 +42,23 @@ pub(super) fn files(folder: &Path, losses: &mut Vec<Loss>) -> Result<Vec<PathBuf
         let expected = "files that are there";
         return Err(ContainerError::content(&metadata, "relative_file_paths", expected, "none of them"));
     }
-    Ok(without_unwritten(files, losses))
+    without_unwritten(files, losses)
 }
 
-/// Those that were begun: where the power went just after another file, a last one is there and holds nothing. What is
-/// wrong with a recording that has no other is told when it's opened.
-fn without_unwritten(files: Vec<PathBuf>, losses: &mut Vec<Loss>) -> Vec<PathBuf> {
-    if !files.iter().any(|file| recognises(file)) {
-        return files;
+/// Without a last file that was not begun: where the power went just after the one before was full, it is there and
+/// holds nothing. What is wrong with any other is told when it's opened.
+fn without_unwritten(
+    mut files: Vec<PathBuf>,
+    losses: &mut Vec<Loss>,
+) -> Result<Vec<PathBuf>, ContainerError> {
+    let Some(last) = files.last().filter(|_| files.len() > 1) else { return Ok(files) };
+    let found = beginning(last).map_err(ContainerError::io(last))?;
+    let is_part = |magic: &&[u8]| found.len() < magic.len() && magic.starts_with(&found);
+    if [db3::MAGIC, bag_format::MAGIC, mcap::MAGIC].iter().any(is_part) {
+        losses.push(Loss::hiding(format!("{}: holds no beginning of a recording", last.display())));
+        files.pop();
     }
-    let (begun, others): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|file| recognises(file));
-    let told = |file: PathBuf| Loss::hiding(format!("{}: holds no beginning of a recording", file.display()));
-    losses.extend(others.into_iter().map(told));
-    begun
+    Ok(files)
 }
 
 /// The entries of the list `relative_file_paths`, each on a line of its own, as every recorder writes it.

@@ -48,7 +48,7 @@ fn proposed(checks: &[SequenceCheck], refined: &[Refinement]) -> Lines {
     let (guessed, measured): (Vec<_>, Vec<_>) = doubted(checks).partition(is_guess);
     for verdict in measured.into_iter().chain(guessed) {
         let Some(remedy) = verdict.remedy.as_ref() else { continue };
-        if !(is_refined(checks, refined, &verdict.subject) && is_plan(remedy)) {
+        if !(is_refined(checks, refined, &verdict.subject) && is_plan(verdict)) {
             let denied = denied(checks, verdict);
             for setting in remedy.settings(&verdict.subject) {
                 add(&mut lines, setting, denied.as_deref().unwrap_or_default(), denied.is_some());
@@ -68,16 +68,15 @@ fn is_radar(checks: &[SequenceCheck], name: &str) -> bool {
     checks.iter().flat_map(|check| &check.figures).any(|figures| figures.name == name)
 }
 
-/// Whether a remedy is what refinements tell.
-fn is_plan(remedy: &Remedy) -> bool {
-    matches!(remedy, Remedy::Sensor(change) if !is_vertical(change))
+/// Whether a remedy is what refinements tell. Of a LiDAR on its side a tilt is a yaw.
+fn is_plan(verdict: &Verdict) -> bool {
+    verdict.question != Question::Ground
+        && matches!(&verdict.remedy, Some(Remedy::Sensor(change)) if !is_vertical(change))
 }
 
 /// Where a LiDAR's change is in order as often as not: what refines it has not seen all sequences.
 fn denied_lidar(checks: &[SequenceCheck], refinement: &Refinement) -> Option<String> {
-    let is_own = |verdict: &&Verdict| {
-        verdict.subject == refinement.name && verdict.remedy.as_ref().is_some_and(is_plan)
-    };
+    let is_own = |verdict: &&Verdict| verdict.subject == refinement.name && is_plan(verdict);
     let own = doubted(checks).find(is_own).filter(|_| !is_radar(checks, &refinement.name));
     own.and_then(|verdict| denied(checks, verdict))
 }
@@ -117,7 +116,7 @@ fn speaks_against(checks: &[SequenceCheck], doubt: &Verdict, good: &Verdict) -> 
     let of_radar = |question: Question| good.question == question && is_radar(checks, &good.subject);
     match &doubt.remedy {
         Some(Remedy::MotionClock(_)) => of_radar(Question::Clock),
-        Some(remedy) if is_plan(remedy) && !is_radar(checks, &doubt.subject) => of_radar(Question::Lidar),
+        _ if is_plan(doubt) && !is_radar(checks, &doubt.subject) => of_radar(Question::Lidar),
         _ => (&good.subject, good.question) == (&doubt.subject, doubt.question),
     }
 }
