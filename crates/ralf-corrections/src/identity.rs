@@ -26,7 +26,7 @@ pub(crate) struct Identity {
 type FileId = (u64, u64);
 
 /// A file's last change and length: while both are the same, nobody wrote to it.
-type Stamp = (Option<SystemTime>, u64);
+pub(crate) type Stamp = (Option<SystemTime>, u64);
 
 #[derive(Debug, Clone)]
 struct Known {
@@ -93,7 +93,7 @@ impl Identity {
     }
 }
 
-fn stamp(file: &Path) -> io::Result<Stamp> {
+pub(crate) fn stamp(file: &Path) -> io::Result<Stamp> {
     file.metadata().map(|found| (found.modified().ok(), found.len()))
 }
 

@@ -5,7 +5,7 @@ use crate::changes::{Changes, changes};
 use crate::content::ScanContent;
 use crate::error::{StoreError, told};
 use crate::history::{Steps, history};
-use crate::identity::Identity;
+use crate::identity::{Identity, Stamp, stamp};
 use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{History, ScanState};
 use crate::read::{ScanSummary, contents, ids, scan_state, summaries, versions};
@@ -15,7 +15,6 @@ use crate::workday::{Workday, workdays};
 use rusqlite::Connection;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 /// The corrections of one output folder, to be read. Whoever writes meanwhile, even for long, is not waited for.
 #[derive(Debug)]
@@ -30,12 +29,11 @@ pub struct Reader {
 
 /// What lies in a store's place: when the file was changed last, its length, and whether edits lie beside it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Lying(Option<(Option<SystemTime>, u64)>, bool);
+pub(crate) struct Lying(Option<Stamp>, bool);
 
 impl Lying {
     fn at(file: &Path) -> Self {
-        let found = file.metadata().ok().map(|found| (found.modified().ok(), found.len()));
-        Self(found, has_journal(file))
+        Self(stamp(file).ok(), has_journal(file))
     }
 }
 

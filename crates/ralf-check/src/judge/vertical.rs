@@ -29,13 +29,13 @@ const MOST: f64 = 0.6;
 /// low things in every scan, and how high their strongest spots are is theirs: several places are needed. A LiDAR that
 /// is tilted or too high says nothing of heights.
 pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
-    let is_lidar = |name: &String| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == *name);
-    let is_doubt = |verdict: &Verdict| verdict.state == State::Doubt && verdict.question == Question::Ground;
+    let is_of_ground =
+        |verdict: &Verdict| verdict.state == State::Doubt && verdict.question == Question::Ground;
     let is_told = |radar: &usize| {
         let sensor = &case.sequence.rig.radars[*radar];
         sensor.elevation != Elevation::None && one_elevation(&case.sample.radars[*radar]).is_none()
     };
-    if known.iter().any(|verdict| is_doubt(verdict) && is_lidar(&verdict.subject)) {
+    if known.iter().any(is_of_ground) {
         let missing = "the height or the tilt of a LiDAR is doubted: it has to be put right before";
         let cannot = |radar| Verdict::cannot_judge(case.name(radar), Question::Lidar, missing);
         return case.radars().filter(is_told).map(cannot).collect();

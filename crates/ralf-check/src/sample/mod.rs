@@ -42,10 +42,10 @@ impl Sample {
             return false;
         }
         let times = &sequence.times;
-        let radars = times.radars.iter().zip(&self.radars);
+        let mut radars = times.radars.iter().zip(&self.radars);
         let is_read = |lidar: usize| self.lidars.iter().any(|look| look.lidar == lidar);
         let mut lidars = times.lidars.iter().enumerate();
-        radars.into_iter().any(|(times, looks)| !times.is_empty() && looks.is_empty())
+        radars.any(|(times, looks)| !times.is_empty() && looks.is_empty())
             || lidars.any(|(lidar, times)| !times.is_empty() && !is_read(lidar))
     }
 

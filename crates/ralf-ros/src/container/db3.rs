@@ -5,6 +5,7 @@ use super::catalogue::{Catalogue, Channel, MessageRef};
 use super::database::{self, refused};
 use super::error::ContainerError;
 use super::loss::Loss;
+use super::quality::{OFFERED, is_latched};
 use rusqlite::{Connection, Row};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,10 +14,6 @@ use std::sync::{Mutex, PoisonError};
 /// What an SQLite file begins with.
 pub(super) const MAGIC: &[u8] = b"SQLite format 3\0";
 
-/// The column of a topic that tells how its publishers offer messages.
-const OFFERED: &str = "offered_qos_profiles";
-/// Its durability where messages are also for those who come later: as rosbag2 had it until Humble, and since.
-const LATCHED: [&str; 2] = ["1", "transient_local"];
 /// What the table of definitions tells.
 const DEFINITION: [&str; 3] = ["topic_type", "encoding", "encoded_message_definition"];
 
@@ -102,16 +99,6 @@ fn definitions(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Sch
         Ok(())
     })?;
     Ok(definitions)
-}
-
-/// Whether messages are also for those who come later: as the recorder was offered them, or where it doesn't tell, as
-/// every static frame is.
-pub(super) fn is_latched(topic: &str, offered: &str) -> bool {
-    if !offered.contains("durability") {
-        return topic.ends_with("/tf_static");
-    }
-    let keys = offered.lines().map(|line| line.trim().trim_start_matches("- "));
-    keys.filter_map(|key| key.strip_prefix("durability:")).any(|value| LATCHED.contains(&value.trim()))
 }
 
 fn has_columns(connection: &Connection, table: &str, columns: &[&str]) -> rusqlite::Result<bool> {

@@ -5,9 +5,9 @@ use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
-use super::db3::is_latched;
 use super::decompress::Compression;
 use super::error::Stop;
+use super::quality::{OFFERED, is_latched};
 use super::records::RecordFile;
 use crate::encoding::{Decoder, Encoding, EncodingError};
 use mcap::MAGIC;
@@ -190,7 +190,7 @@ impl Told {
             told.insert(decoder.string()?, decoder.string()?);
         }
         let mut text = |key| told.remove(key).unwrap_or_default();
-        let (offered, latching) = (text("offered_qos_profiles"), text("latching"));
+        let (offered, latching) = (text(OFFERED), text("latching"));
         let latched = if latching.is_empty() { is_latched(topic, &offered) } else { latching == "1" };
         let publisher = Some(text("callerid")).filter(|_| latched).unwrap_or_default();
         Ok(Self { latched, publisher, md5: text("md5sum") })

@@ -18,6 +18,7 @@ mod error;
 mod folder;
 mod loss;
 mod mcap_file;
+mod quality;
 mod records;
 
 use bag::Bag;

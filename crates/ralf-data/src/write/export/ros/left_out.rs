@@ -3,6 +3,7 @@
 use crate::frames::{ScanIndex, all_scans};
 use crate::read::SequenceReader;
 use crate::read::ros::RosOrigin;
+use crate::words::listed;
 use ralf::sensors::{Intrinsics, Sequence};
 
 /// So many topics are named.
@@ -37,11 +38,8 @@ pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<String> {
 
 /// The topics of a ROS recording that no sensor of the sequence was read from, where there are some.
 fn other_topics(origin: &RosOrigin) -> Option<String> {
-    let others = origin.other_topics();
-    let more = others.len().saturating_sub(SHOWN);
-    let named = others.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!others.is_empty()).then(|| format!("topics that no sensor of it is ({named}{more})"))
+    let others: Vec<&str> = origin.other_topics().iter().map(String::as_str).collect();
+    (!others.is_empty()).then(|| format!("topics that no sensor of it is ({})", listed(&others, SHOWN)))
 }
 
 /// What a copy lacks of the recording, byte for byte though its messages are.
