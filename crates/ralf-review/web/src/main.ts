@@ -5,6 +5,7 @@ import { closed, firstAddress, nameAmong } from "./actions/starting.js";
 import { Api } from "./api/client.js";
 import { messageOf } from "./api/errors.js";
 import { openSession, randomName } from "./api/session.js";
+import type { Recording } from "./api/types.js";
 import { CameraView } from "./cameras/camera-view.js";
 import { CamerasPanel } from "./cameras/cameras-panel.js";
 import { thingCrops } from "./cameras/thing-crops.js";
@@ -37,7 +38,7 @@ import { thingBar } from "./panels/thing-bar.js";
 import { Timeline } from "./panels/timeline.js";
 import { toolbar } from "./panels/toolbar.js";
 import { keepPreferences } from "./preferences.js";
-import { initialState } from "./state.js";
+import { initialState, MOST_ACCUMULATED } from "./state.js";
 import { Store } from "./store.js";
 import { Viewport } from "./viewer/viewport.js";
 
@@ -52,7 +53,7 @@ async function start(): Promise<void> {
   keepPreferences(store);
   deriveAlways(store);
   const keeper = await openKeeper(recording.store, randomName).catch(keepNothing);
-  const actions = actionsOn({ store, api, session, loader: new Loader(api) }, keeper);
+  const actions = actionsOn({ store, api, session, loader: new Loader(api, mostOnScreen(recording)) }, keeper);
   build({ store, actions });
   document.title = `${recording.dataset} · ${recording.out} · RALF review`;
   window.addEventListener("beforeunload", (event) => {
@@ -68,6 +69,11 @@ async function start(): Promise<void> {
   if (first === null) return store.set({ loading: false });
   await actions.correct.retry();
   await actions.go.open(first.sequence, first.scan);
+}
+
+/** How many scans of a recording may be on screen at once. */
+function mostOnScreen({ sequences }: Recording): number {
+  return (2 * MOST_ACCUMULATED + 1) * Math.max(...sequences.map(({ radars }) => radars.length), 0);
 }
 
 function build(page: Page): void {

@@ -116,8 +116,9 @@ export class Kinding {
       const isHere = kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
       if (!isHere) await this.navigation.wholeSequence(kind);
     });
-    if (sequence !== store.state.sequence) return;
     const { cloud, eligible } = store.state;
+    // Somebody went elsewhere meanwhile, or the scans can't be read.
+    if (sequence !== store.state.sequence || !kind.points.some((part) => findScan(cloud, part) >= 0)) return;
     const selection = intersection(maskOf(cloud, within(kind)), eligible);
     this.lookedIn.here();
     store.set({ ...NOTHING_LOOKED_AT, kind, selection, armed: undefined, focus: around(cloud, selection) });

@@ -6,8 +6,8 @@ import type { Store } from "../store.js";
 
 export class LookedIn {
   private scans = "";
-  /** True while other scans are being fetched for what is looked at. */
-  private moving = false;
+  /** How often other scans are being fetched for what is looked at: somebody may go on before they are there. */
+  private moves = 0;
 
   constructor(
     private readonly store: Store<State>,
@@ -16,15 +16,15 @@ export class LookedIn {
     store.watch(
       ({ cloud }) => [cloud],
       (cloud) => {
-        if (!this.moving && scansOf(cloud) !== this.scans) left();
+        if (this.moves === 0 && scansOf(cloud) !== this.scans) left();
       },
     );
   }
 
   /** Puts other scans on screen for it, which is not leaving it. */
   async elsewhere(move: () => Promise<void>): Promise<void> {
-    this.moving = true;
-    await move().finally(() => (this.moving = false));
+    this.moves += 1;
+    await move().finally(() => (this.moves -= 1));
   }
 
   /** It is looked at in the scans that are on screen now. */

@@ -11,6 +11,7 @@ import { complain, type World } from "./world.js";
 
 export class Moment {
   private generation = 0;
+  private pictures: Promise<void> = Promise.resolve();
   private readonly imagery: Imagery;
 
   constructor(private readonly world: World) {
@@ -38,13 +39,22 @@ export class Moment {
       const before = store.state.cameras;
       const cameras = this.camerasOf(cloud).map((camera) => withKnownPicture(camera, before));
       store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
-      await Promise.all(cameras.map((camera) => this.imagery.complete(cloud, camera)));
+      // Nobody waits for pictures: what is looked at is selected before anything else can be chosen.
+      this.pictures = Promise.all(cameras.map((camera) => this.imagery.complete(cloud, camera))).then(
+        () => undefined,
+        (error: unknown) => complain(this.world, error),
+      );
     } catch (error) {
       if (generation !== this.generation) return;
       const { scans } = store.state.cloud;
       store.set({ loading: false, current: scans[0] ?? null });
       complain(this.world, error);
     }
+  }
+
+  /** Resolves once the cameras' pictures of what is on screen are there, or can't be read. */
+  pictured(): Promise<void> {
+    return this.pictures;
   }
 
   /** Reads what will probably be looked at next. */

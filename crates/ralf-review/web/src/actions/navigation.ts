@@ -89,8 +89,14 @@ export class Navigation {
     const address: Address = { sequence, scan: { radar, scan } };
     window.history.replaceState(null, "", addressText(address));
     await this.moment.show({ radar, scan });
-    const next = nextNeedy(this.world.store.state.scans, { radar, scan });
-    // What can't be read ahead is told of when somebody goes there.
+    void this.readAhead({ radar, scan });
+  }
+
+  /** Once all of a scan is there, reads the one after it; what can't be read is told of when somebody goes there. */
+  private async readAhead(id: ScanId): Promise<void> {
+    await this.moment.pictured();
+    const { scans, current } = this.world.store.state;
+    const next = sameScan(current, id) ? nextNeedy(scans, id) : null;
     if (next !== null) await this.moment.prefetch(next).catch(() => undefined);
   }
 
@@ -98,7 +104,8 @@ export class Navigation {
     const { scans, current, queueView } = this.world.store.state;
     const ofRadar = listed(scans, { ...queueView, order: "need", hideReviewed: false });
     const next = nextNeedy(ofRadar, current);
-    if (next === null) tell(this.world, "Every scan of this sequence is reviewed.");
+    const whose = queueView.radar === null ? "this sequence" : `${queueView.radar} in this sequence`;
+    if (next === null) tell(this.world, `Every scan of ${whose} is reviewed.`);
     else await this.goTo(next);
   }
 
@@ -115,7 +122,7 @@ export class Navigation {
       const { current, sequence } = this.world.store.state;
       const shown = new Promise((resolve) => setTimeout(resolve, LEAST_SHOWN));
       await this.step(1);
-      await shown;
+      await Promise.all([shown, this.moment.pictured()]);
       const now = this.world.store.state;
       if (sameScan(current, now.current) || sequence !== now.sequence) this.playing = false;
     }

@@ -112,7 +112,8 @@ export class Opining {
       const at = still.changes.findIndex(({ thing }) => thing === change.thing);
       store.set({ opinion: still, opinionAt: at });
       await this.lookedIn.elsewhere(() => this.navigation.wholeSequence(change));
-      if (sequence !== store.state.sequence) return;
+      // Somebody went on meanwhile, or the scan can't be read.
+      if (sequence !== store.state.sequence || !sameScan(store.state.current, change)) return;
       this.select();
     }
     lookAt(this.world, change);

@@ -2,6 +2,7 @@
 
 import { columnOf, pointOf } from "../data/cloud.js";
 import { degrees } from "../format.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
 import type { World } from "./world.js";
 
 export class Picking {
@@ -18,7 +19,9 @@ export class Picking {
     const index = order[next];
     const chosen = new Uint8Array(selection.length);
     chosen[index] = 1;
-    store.set({ selection: chosen, picked: index, announced: this.describe(index, next, order.length) });
+    const announced = this.describe(index, next, order.length);
+    // Whoever chooses another one isn't answering what was asked any more.
+    store.set({ ...NOTHING_LOOKED_AT, selection: chosen, picked: index, announced });
   }
 
   private describe(index: number, place: number, count: number): string {

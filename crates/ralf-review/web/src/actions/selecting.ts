@@ -1,9 +1,11 @@
 /** Choosing detections, and what is set by it. */
 
 import type { Choice } from "../data/labels.js";
-import { combine, type Combination, countOf, inverted } from "../selection/mask.js";
+import { combine, type Combination, countOf, intersection, inverted } from "../selection/mask.js";
 import { isPress, type Tool } from "../selection/tools.js";
+import { counted } from "../format.js";
 import { NOTHING_LOOKED_AT } from "../state.js";
+import { askedAbout } from "./asked.js";
 import type { Correcting } from "./correcting.js";
 import type { Kinding } from "./kinding.js";
 import type { Settling } from "./settling.js";
@@ -34,8 +36,9 @@ export class Selecting {
     const { armed, selection, outbox } = store.state;
     if (outbox.kind === "conflict") return;
     this.lastTool = tool;
-    const mask = tool === "thing" && countOf(drawn) > 0 ? this.things.whole(drawn) : drawn;
-    if (countOf(mask) === 0 && !isPress(tool)) this.explainNothing();
+    const chosen = tool === "thing" && countOf(drawn) > 0 ? this.things.whole(drawn) : drawn;
+    const mask = how === "add" ? this.withinTheQuestion(chosen) : chosen;
+    if (countOf(chosen) === 0 && !isPress(tool)) this.explainNothing();
     // Whoever chooses something else isn't answering the queue any more.
     store.set(how === "replace" ? NOTHING_LOOKED_AT : { thing: null });
     if (armed !== undefined && how === "replace") {
@@ -57,7 +60,8 @@ export class Selecting {
     if (kind !== null) return this.kinds.answer(choice);
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
-    else store.set({ armed: armed === choice ? undefined : choice });
+    // A key that is pressed twice, or too early for the next thing, begins no painting.
+    else if (thing === null && !this.things.coming) store.set({ armed: armed === choice ? undefined : choice });
   }
 
   /** What a person says of the thing that wants an answer; then to the next one. */
@@ -85,13 +89,13 @@ export class Selecting {
 
   invert(): void {
     const { store } = this.world;
-    store.set({ selection: inverted(store.state.selection, store.state.eligible) });
+    store.set({ ...NOTHING_LOOKED_AT, selection: inverted(store.state.selection, store.state.eligible) });
     this.lastTool = "invert";
   }
 
   all(tool = "all"): void {
     const { store } = this.world;
-    store.set({ selection: store.state.eligible.slice() });
+    store.set({ ...NOTHING_LOOKED_AT, selection: store.state.eligible.slice() });
     this.lastTool = tool;
   }
 
@@ -124,6 +128,17 @@ export class Selecting {
   toggleProtect(): void {
     const { store } = this.world;
     store.set({ protect: !store.state.protect });
+  }
+
+  /** What may be added to the answer of a question that is looked at: all of it, and nothing beyond, which is told. */
+  private withinTheQuestion(chosen: Uint8Array): Uint8Array {
+    const asked = askedAbout(this.world.store.state);
+    if (asked === null) return chosen;
+    const within = intersection(chosen, asked);
+    const beyond = countOf(chosen) - countOf(within);
+    if (beyond > 0)
+      tell(this.world, `${counted(beyond, "detection")} that the question isn't about can't be added: Esc leaves it.`);
+    return within;
   }
 
   private explainNothing(): void {

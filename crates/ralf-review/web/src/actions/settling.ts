@@ -1,6 +1,6 @@
 /** Where two people said different things: looked at one after the other, and settled by taking a side. */
 
-import type { Disagreement } from "../api/types.js";
+import type { BaseRevision, Disagreement } from "../api/types.js";
 import { everything } from "../data/filter.js";
 import type { Choice } from "../data/labels.js";
 import { countOfPoints, keptPoints } from "../data/opinion.js";
@@ -18,6 +18,8 @@ import { complain, tell, type World } from "./world.js";
 export class Settling {
   /** Those that were looked at since the sequence was opened. */
   private seen = new Set<string>();
+  /** What was said when the one on screen was read: whatever is said since is a conflict. */
+  private base: readonly BaseRevision[] = [];
   private readonly lookedIn: LookedIn;
   private readonly sparing: Sparing;
 
@@ -89,8 +91,8 @@ export class Settling {
 
   private async settle(choice: Choice, cause: string | null): Promise<void> {
     const { store } = this.world;
-    const { disputed, disagreements, cloud, selection } = store.state;
-    if (disputed === null || disagreements === null) return;
+    const { disputed, cloud, selection } = store.state;
+    if (disputed === null) return;
     const points = keptPoints(disputed.points, cloud, selection);
     const { unshown, unreached } = outlookOf(disputed, store.state);
     if (points.length === 0)
@@ -98,7 +100,7 @@ export class Settling {
         this.world,
         "None of these is selected, so nothing is settled: they are spared, or the filter hides them.",
       );
-    if (!(await this.correcting.settle(points, disagreements.base, choice, cause))) return;
+    if (!(await this.correcting.settle(points, this.base, choice, cause))) return;
     const left = unshown + unreached;
     if (left > 0)
       tell(this.world, `${counted(countOfPoints(points), "detection")} settled; ${left} that were hidden are left.`);
@@ -117,12 +119,14 @@ export class Settling {
     const { store } = this.world;
     const { sequence } = store.state;
     this.seen.add(keyOf(disagreement));
+    const base = store.state.disagreements?.base ?? [];
     // Until the next one is on screen no key settles anything, or labels what the one before had selected.
     store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     await this.navigation.wholeSequence(disagreement);
     // Somebody went elsewhere meanwhile, or the scan can't be read.
     if (sequence !== store.state.sequence || !sameScan(store.state.current, disagreement)) return;
     this.lookedIn.here();
+    this.base = base;
     store.set({ ...NOTHING_LOOKED_AT, disputed: disagreement, armed: undefined });
     store.set({ selection: this.sparing.begin() });
     lookAt(this.world, disagreement);

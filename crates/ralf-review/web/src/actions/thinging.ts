@@ -4,6 +4,8 @@ import type { DoubtfulThing } from "../api/types.js";
 import { maskOf } from "../data/cloud.js";
 import { nextThing, placeOf, type Place, Things, wholeThings } from "../data/things.js";
 import { movePlace } from "../data/transform.js";
+import { sameScan } from "../data/scan.js";
+import { intersection } from "../selection/mask.js";
 import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
@@ -19,6 +21,8 @@ export class Thinging {
   private doubtful: readonly DoubtfulThing[] = [];
   /** Places that were looked at since the sequence was opened. */
   private seen: Place[] = [];
+  /** How many are on their way to the screen: somebody may ask again before the first is there. */
+  private underWay = 0;
 
   constructor(
     private readonly world: World,
@@ -47,10 +51,16 @@ export class Thinging {
     return reading;
   }
 
+  /** True from the moment the next thing is asked for until it is on screen. */
+  get coming(): boolean {
+    return this.underWay > 0;
+  }
+
   /** To the next place where wrong labels are expected, with its most doubtful thing selected. */
   async next(): Promise<void> {
     const { store } = this.world;
     const { sequence } = store.state;
+    this.underWay += 1;
     try {
       if (this.things === null) await this.load();
       else await this.hear(sequence);
@@ -61,6 +71,8 @@ export class Thinging {
       tell(this.world, "Every doubtful thing of this sequence was looked at.");
     } catch (error) {
       complain(this.world, error);
+    } finally {
+      this.underWay -= 1;
     }
   }
 
@@ -90,15 +102,18 @@ export class Thinging {
     const { store } = this.world;
     const { sequence } = store.state;
     const things = await this.load();
+    // Until it is on screen no key answers it with what is selected of another.
+    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     await this.navigation.wholeSequence(thing);
-    // Meanwhile somebody may have chosen another one, whose detections these numbers mean nothing of.
-    if (sequence !== store.state.sequence) return;
+    // Somebody went elsewhere meanwhile, where these numbers mean nothing, or the scan can't be read.
+    if (sequence !== store.state.sequence || !sameScan(store.state.current, thing)) return;
     const at = placeOf(thing);
     if (at !== null) this.seen.push(at);
     lookAt(this.world, thing);
     // Whoever paints goes on painting there.
     if (store.state.armed !== undefined) return;
-    const selection = maskOf(store.state.cloud, things.members(thing.thing));
+    const { cloud, eligible } = store.state;
+    const selection = intersection(maskOf(cloud, things.members(thing.thing)), eligible);
     store.set({ ...NOTHING_LOOKED_AT, thing, selection, tool: "thing" });
   }
 

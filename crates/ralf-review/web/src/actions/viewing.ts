@@ -117,6 +117,11 @@ export class Viewing {
     this.world.store.set({ frameTime: milliseconds });
   }
 
+  /** The picture is gone until the graphics card is back, which is told: nothing of it can be looked at. */
+  gone(): void {
+    tell(this.world, "The graphics card was taken away: the picture comes back with it, or once the page is reloaded.");
+  }
+
   dialog(dialog: Dialog): void {
     this.world.store.set({ dialog });
   }

@@ -41,7 +41,7 @@ export class CameraView {
     this.element = h("div", { class: "camera" }, this.picture, this.overlay, this.caption);
     this.surface = new Surface(page.store, page.actions, {
       element: this.element,
-      places: () => this.placed(),
+      places: () => this.inSight(),
       showGesture: (gesture, pointer) => {
         [this.gesture, this.pointer] = [gesture, pointer];
         this.drawOverlay();
@@ -122,6 +122,11 @@ export class CameraView {
     return this.places;
   }
 
+  /** The places of what can be seen: an image that is zoomed is larger than the element. */
+  private inSight(): Float32Array {
+    return within(this.placed(), ...this.size);
+  }
+
   private draw(): void {
     const [width, height] = this.size;
     if (width === 0 || height === 0) return;
@@ -136,7 +141,7 @@ export class CameraView {
     }
     this.drawLidar(context, camera, [width, height]);
     this.drawDots(context, width);
-    if (this.watched) this.page.actions.review.saw(within(this.placed(), width, height));
+    if (this.watched) this.page.actions.review.saw(this.inSight());
     this.drawOverlay();
   }
 

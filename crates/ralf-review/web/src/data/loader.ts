@@ -11,9 +11,11 @@ import { sameScan, type Scan, scanFromTable, scanKey } from "./scan.js";
 
 /** Scans that have the same map. */
 const MAP_STEP = 50;
+/** So many scans are remembered of any recording. */
+const LEAST_SCANS = 1200;
 
 export class Loader {
-  private readonly scans = new Cache<Scan>(1200);
+  private readonly scans: Cache<Scan>;
   private readonly lidars = new Cache<Table<LidarHeader>>(6);
   private readonly maps = new Cache<Table<LidarHeader>>(4);
   private readonly near = new Cache<Table<LidarHeader>>(100);
@@ -26,7 +28,13 @@ export class Loader {
   /** By sequence: the run whose labels were heard of last. */
   private readonly runs = new Map<string, string>();
 
-  constructor(private readonly api: Api) {}
+  /** `most`: scans that may be on screen at once; there is room for as many that are read ahead. */
+  constructor(
+    private readonly api: Api,
+    most: number,
+  ) {
+    this.scans = new Cache(Math.max(LEAST_SCANS, 2 * most));
+  }
 
   scan(sequence: string, id: ScanId): Promise<Scan> {
     return this.scans.get(key(sequence, scanKey(id)), async () => {

@@ -23,8 +23,8 @@ export class Sight {
   unseen(cloud: Cloud, shown: Uint8Array): Unseen {
     const [rows, unseen] = [this.rows(cloud), { all: 0, hidden: 0 }];
     for (let i = 0; i < rows; i++) {
-      // What has no place can't be on any screen.
-      if (this.seen[i] === 1 || Number.isNaN(cloud.positions[3 * i])) continue;
+      // What was measured nowhere can't be on any screen; what is away while something is held still can.
+      if (this.seen[i] === 1 || Number.isNaN(cloud.measured[3 * i])) continue;
       unseen.all += 1;
       if (shown[i] === 0) unseen.hidden += 1;
     }

@@ -204,8 +204,8 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
     const { dialog, outbox } = store.state;
     if (dialog !== "none" || outbox.kind === "conflict" || typing(event)) return;
     const name = keyName(event);
-    if ((name === "enter" || name === " ") && event.target instanceof HTMLButtonElement) {
-      // Held down, a button would be pressed again and again.
+    if ((name === "enter" || name === " ") && pressable(event.target)) {
+      // Held down, it would be pressed again and again.
       if (event.repeat) event.preventDefault();
       return;
     }
@@ -214,6 +214,11 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
     event.preventDefault();
     if (!event.repeat || key.repeats === true) key.run();
   });
+}
+
+/** Buttons, and headings that open and close, are pressed by keys of their own. */
+function pressable(target: EventTarget | null): boolean {
+  return target instanceof Element && target.closest("button, summary") !== null;
 }
 
 /** A slider's own keys. */

@@ -183,6 +183,7 @@ function radarList({ store, actions }: Page): HTMLSelectElement {
     (recording, sequence) => {
       const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
       setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
+      radars.value = store.state.queueView.radar ?? "";
     },
   );
   return radars;

@@ -39,8 +39,10 @@ export class Surface {
     element.addEventListener("pointerup", (event) => this.release(event));
     element.addEventListener("pointerleave", () => this.leave());
     element.addEventListener("dblclick", (event) => this.closePolygon(combination(event)));
+    element.addEventListener("pointercancel", () => this.giveUp());
+    // What was drawn was drawn on another picture.
     store.watch(
-      ({ tool, cloud }) => [tool, cloud.count],
+      ({ tool, cloud, focus }) => [tool, cloud.positions, focus],
       () => this.cancel(),
     );
   }
@@ -107,6 +109,12 @@ export class Surface {
     this.panning = null;
     if (pressed !== null && !this.dragged) this.choose(pressed, combination(event));
     if (this.gesture !== null && this.gesture.tool !== "polygon") this.finish(combination(event));
+  }
+
+  /** The pointer was taken away, by the system or by a second finger. */
+  private giveUp(): void {
+    this.panning = null;
+    this.cancel();
   }
 
   private leave(): void {

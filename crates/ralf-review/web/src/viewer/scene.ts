@@ -43,18 +43,27 @@ export class SceneView {
     canvas: HTMLCanvasElement,
     private readonly drawOver: () => void,
     private readonly timed: (milliseconds: number) => void,
+    /** Hears that the graphics card was taken away, with nothing drawn until it is back. */
+    gone: () => void,
   ) {
     const antialias = hasSmoothEdges();
     this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(this.pixelRatio);
     this.scene.background = new Color(BACKGROUND);
     this.scene.add(ground(), this.lidar.points, this.radar.points);
+    canvas.addEventListener("webglcontextlost", gone);
+    canvas.addEventListener("webglcontextrestored", () => this.invalidate());
     this.free.up.set(0, 0, 1);
     this.above.up.set(1, 0, 0);
   }
 
   get pixelRatio(): number {
     return Math.min(window.devicePixelRatio, 2);
+  }
+
+  /** Whether nothing is on the canvas, whatever is drawn. */
+  get isGone(): boolean {
+    return this.renderer.getContext().isContextLost();
   }
 
   get rig(): Rig {

@@ -38,6 +38,7 @@ export class Viewport {
       canvas,
       () => this.drawOverlay(),
       (milliseconds) => page.actions.view.drawn(milliseconds),
+      () => page.actions.view.gone(),
     );
     this.surface = new Surface(page.store, page.actions, {
       element: this.element,
@@ -207,7 +208,8 @@ export class Viewport {
     const context = cleared(this.overlay, width, height);
     if (context === null) return;
     const { hover, dotSize, tool, brush, mode, cloud, shown } = this.page.store.state;
-    if (mode !== "camera" && shown.length === cloud.count) this.page.actions.review.saw(this.placed());
+    if (mode !== "camera" && !this.view.isGone && shown.length === cloud.count)
+      this.page.actions.review.saw(this.placed());
     this.drawAreas(context);
     drawRingLabels(context, (positions) => this.view.project(positions));
     if (this.above) {

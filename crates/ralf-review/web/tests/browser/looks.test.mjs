@@ -9,12 +9,14 @@ import {
   clean,
   current,
   drag,
+  drawn,
   freshOut,
   historyOf,
   launch,
   open,
   opened,
   picture,
+  pixel,
   proposing,
   ready,
   says,
@@ -196,6 +198,50 @@ test("single detections are chosen by keyboard, one after the other, and announc
   await page.keyboard.press("Shift+D");
   await says(announced, new RegExp(`^Detection ${count} of ${count}, `));
   clean(tab);
+});
+
+test("what is folded away is opened by Enter and Space, which accept and close nothing else then", async (context) => {
+  const { server, tab, page } = await opened(context, browser);
+  const rules = page.locator("summary", { hasText: "Rules" });
+  const isOpen = () => rules.evaluate((summary) => summary.parentElement.open);
+  await rules.focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await isOpen(), true);
+  await page.keyboard.press("Space");
+  assert.equal(await isOpen(), false);
+  await settled(tab);
+  assert.equal(await page.locator(".accept").isVisible(), false);
+  assert.equal((await historyOf(server, page)).undo_depth, 0);
+  clean(tab);
+});
+
+test("a picture that the graphics card lost is told, shows nobody anything, and comes back", async (context) => {
+  const { tab, page } = await opened(context, browser);
+  await settled(tab);
+  const scene = page.locator(".viewport canvas.scene");
+  const before = await scene.screenshot();
+  await scene.evaluate((canvas) => {
+    window.taken = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    window.taken.loseContext();
+  });
+  await says(page.locator(".notice"), "graphics card was taken away");
+  const first = await current(page);
+  await page.keyboard.press("ArrowRight");
+  await ready(page);
+  await page.mouse.move(...(await pixel(page, 5, 0)));
+  await settled(tab);
+  await page.keyboard.press("Enter");
+  await page.locator(".accept").waitFor();
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("ArrowLeft");
+  await settled(tab);
+  assert.deepEqual(await current(page), first);
+  await page.evaluate(() => window.taken.restoreContext());
+  await page.mouse.move(0, 0);
+  await page.waitForTimeout(300);
+  await drawn(page);
+  assert.deepEqual(await scene.screenshot(), before);
+  clean(tab, /CONTEXT_LOST|Context Lost|Context Restored/);
 });
 
 test("filters and colours outlive a reload, and an odd address stops nothing", async (context) => {

@@ -42,7 +42,7 @@ class Desk {
       scan: (_: string, { radar, scan }: ScanId) => this.answer(`scan ${scan}`, this.made(radar, scan).table),
       moment: () => this.answer("moment", { run: this.run, scans: [HERE, NEXT, LAST] }),
     } as unknown as Api;
-    const world = { store: this.store, api, loader: new Loader(api) } as unknown as World;
+    const world = { store: this.store, api, loader: new Loader(api, 1) } as unknown as World;
     this.moment = new Moment(world);
     this.adopting = new Adopting(world, { soon: () => undefined } as unknown as Queueing, this.moment);
     this.open("00");

@@ -185,4 +185,10 @@ test("what was never on screen is counted until it was, and another scan begins 
   assert.deepEqual(sight.unseen(cloud, all), { all: 0, hidden: 0 });
   const next = buildCloud([made("front", 1, { x: [1, 2] })]);
   assert.equal(sight.unseen(next, new Uint8Array([1, 1])).all, 2);
+  const away = { ...next, positions: next.positions.map(() => NaN), held: true };
+  assert.equal(
+    sight.unseen(away, new Uint8Array([1, 1])).all,
+    2,
+    "held still, the scan is away and nobody has seen it",
+  );
 });

@@ -3,6 +3,7 @@ import { test } from "node:test";
 import type { Correcting } from "../../src/actions/correcting.js";
 import { Kinding } from "../../src/actions/kinding.js";
 import type { Navigation } from "../../src/actions/navigation.js";
+import { Picking } from "../../src/actions/picking.js";
 import { Selecting } from "../../src/actions/selecting.js";
 import type { Settling } from "../../src/actions/settling.js";
 import type { Thinging } from "../../src/actions/thinging.js";
@@ -149,6 +150,9 @@ test("whoever looks at other scans, or selects anew, says nothing of a kind", as
     (table: Table) => table.picture(ALONE),
     (table: Table) => table.selecting.gesture("lasso", new Uint8Array([0, 0, 1, 0, 0]), "replace"),
     (table: Table) => table.selecting.escape(),
+    (table: Table) => table.selecting.invert(),
+    (table: Table) => table.selecting.all(),
+    (table: Table) => new Picking({ store: table.store } as unknown as World).step(1),
   ]) {
     const table = await looking();
     leave(table);
@@ -157,6 +161,24 @@ test("whoever looks at other scans, or selects anew, says nothing of a kind", as
     await turn();
     assert.deepEqual(table.said, []);
   }
+});
+
+test("what was spared of a kind can be added again, and nothing beyond it, which is said", async () => {
+  const { store, selecting, said } = await looking();
+  store.set({ selection: new Uint8Array([1, 0, 0, 1, 0]) });
+  selecting.gesture("lasso", new Uint8Array([0, 1, 1, 0, 1]), "add");
+  assert.deepEqual([...store.state.selection], [1, 1, 0, 1, 0]);
+  assert.match(store.state.notice?.text ?? "", /^2 detections that the question isn't about/);
+  selecting.choose(1);
+  await turn();
+  assert.deepEqual(said[0].points, FIRST.points);
+});
+
+test("a kind that somebody doesn't wait for is not looked at elsewhere", async () => {
+  const table = new Table();
+  table.picture = (): void => table.store.set({ cloud: buildCloud([made("rear", 3, { x: [1] })]) });
+  await table.kinding.next();
+  assert.equal(table.store.state.kind, null);
 });
 
 test("while a kind is looked at nothing is flipped by mistake", async () => {

@@ -3,6 +3,7 @@ import { test } from "node:test";
 import type { Moment } from "../../src/actions/moment.js";
 import { Navigation } from "../../src/actions/navigation.js";
 import type { World } from "../../src/actions/world.js";
+import type { ScanId } from "../../src/api/types.js";
 import { initialState, type State } from "../../src/state.js";
 import { Store } from "../../src/store.js";
 import { recordingOf, sequence } from "./recordings.js";
@@ -24,4 +25,28 @@ test("a sequence whose answer comes after a later choice doesn't take its place"
     assert.equal(store.state.sequence, "01");
   }
   assert.equal(forgotten, 1, "of a sequence that was not on screen nobody told what others changed");
+});
+
+test("a scan is there before its cameras' pictures: what is selected then doesn't take the place of a later choice", async () => {
+  const store = new Store<State>(initialState(recordingOf([sequence("00", "ada")]), "ada"));
+  const shown: ScanId[] = [];
+  const show = (id: ScanId): Promise<void> => {
+    shown.push(id);
+    store.set({ current: id });
+    return Promise.resolve();
+  };
+  const moment = { show, pictured: () => new Promise(() => undefined) } as unknown as Moment;
+  Object.assign(globalThis, { window: { history: { replaceState: () => undefined } } });
+  await new Navigation({ store } as unknown as World, moment).goTo({ radar: "front", scan: 4 });
+  assert.deepEqual(shown, [{ radar: "front", scan: 4 }]);
+});
+
+test("who has gone through one radar is told of that radar, for others may be left", async () => {
+  const store = new Store<State>(initialState(recordingOf([sequence("00", "ada")]), "ada"));
+  const go = new Navigation({ store } as unknown as World, {} as Moment);
+  await go.nextNeedy();
+  assert.match(store.state.notice?.text ?? "", /Every scan of this sequence/);
+  go.viewQueue({ radar: "rear" });
+  await go.nextNeedy();
+  assert.match(store.state.notice?.text ?? "", /Every scan of rear in this sequence/);
 });

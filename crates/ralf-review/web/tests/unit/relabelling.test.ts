@@ -2,7 +2,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Adopting } from "../../src/actions/adopting.js";
 import type { Navigation } from "../../src/actions/navigation.js";
+import type { Correcting } from "../../src/actions/correcting.js";
+import type { Kinding } from "../../src/actions/kinding.js";
 import { Relabelling } from "../../src/actions/relabelling.js";
+import { Selecting } from "../../src/actions/selecting.js";
+import type { Settling } from "../../src/actions/settling.js";
 import { Thinging } from "../../src/actions/thinging.js";
 import type { World } from "../../src/actions/world.js";
 import type { Table } from "../../src/api/table.js";
@@ -42,7 +46,8 @@ class Desk {
       doubtful: () => Promise.resolve(header()),
     };
     this.world = { store: this.store, api } as unknown as World;
-    this.store.set({ sequence: "00" });
+    deriveAlways(this.store);
+    this.store.set({ sequence: "00", current: { radar: "front", scan: 0 } });
     this.show();
   }
 
@@ -60,7 +65,6 @@ function doubtful(thing: number, x: number): DoubtfulThing {
 
 test("once the scan on screen is of another run, so is the threshold, and what is uncertain by it", async () => {
   const desk = new Desk();
-  deriveAlways(desk.store);
   new Relabelling(desk.world);
   desk.store.set({ filter: { ...everything, uncertain: true } });
   assert.deepEqual([...desk.store.state.shown], [1, 0, 0]);
@@ -86,8 +90,46 @@ test("after somebody labelled again the next thing is one of the new labels, and
   desk.run = "third";
   const chosen = new Uint8Array([1, 0, 0]);
   desk.show();
-  desk.store.set({ shown: new Uint8Array([1, 1, 1]) });
   assert.equal(thinging.whole(chosen), chosen, "what belongs together in these labels isn't known yet");
+});
+
+test("of a thing that comes what the filter hides isn't selected: nobody would see what is said of it", async () => {
+  const desk = new Desk();
+  desk.store.set({ filter: { ...everything, range: [0, 2] } });
+  await new Thinging(
+    desk.world,
+    { wholeSequence: () => Promise.resolve() } as unknown as Navigation,
+    {} as Adopting,
+  ).next();
+  assert.deepEqual([...desk.store.state.selection], [0, 1, 0]);
+});
+
+test("a key that is pressed again before the next thing is there says nothing and begins no painting", async () => {
+  const { store, world } = new Desk();
+  const more = { run: "first", doubtful: [doubtful(1, 0), doubtful(0, 500)] };
+  Object.assign(world.api, { doubtful: () => Promise.resolve(more) });
+  let arrive: () => void = () => undefined;
+  const navigation = { wholeSequence: () => new Promise<void>((resolve) => (arrive = resolve)) };
+  const things = new Thinging(world, navigation as unknown as Navigation, {} as Adopting);
+  const said: (readonly number[])[] = [];
+  const apply = (): Promise<void> => {
+    said.push([...store.state.selection]);
+    store.set({ selection: new Uint8Array(3) });
+    return Promise.resolve();
+  };
+  const correct = { apply } as unknown as Correcting;
+  const selecting = new Selecting(world, correct, things, {} as Settling, {} as Kinding);
+  const turn = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
+  const asked = things.next();
+  await turn();
+  selecting.choose(1);
+  arrive();
+  await asked;
+  for (const _ of [1, 2, 3]) {
+    selecting.choose(1);
+    await turn();
+  }
+  assert.deepEqual([said, store.state.armed, things.coming], [[[0, 1, 1]], undefined, true]);
 });
 
 test("a thing whose sequence is left while its scans are read is not looked for in another one", async () => {

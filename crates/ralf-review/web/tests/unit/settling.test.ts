@@ -10,7 +10,14 @@ import { Selecting } from "../../src/actions/selecting.js";
 import { Settling } from "../../src/actions/settling.js";
 import type { Thinging } from "../../src/actions/thinging.js";
 import type { World } from "../../src/actions/world.js";
-import type { Disagreement, ScanId, ScanPoints, StrokeAnswer, StrokeRequest } from "../../src/api/types.js";
+import type {
+  BaseRevision,
+  Disagreement,
+  ScanId,
+  ScanPoints,
+  StrokeAnswer,
+  StrokeRequest,
+} from "../../src/api/types.js";
 import { buildCloud, type Cloud, withScans } from "../../src/data/cloud.js";
 import { everything } from "../../src/data/filter.js";
 import { rulesText } from "../../src/data/rules.js";
@@ -265,4 +272,28 @@ test("a rule chooses in the scans on screen, and is gone with them", async () =>
     table.picture(cloud);
     assert.equal(table.store.state.rule, null);
   }
+});
+
+test("a side rests on what was said when the disagreement came on screen, whatever is read of it since", async () => {
+  const table = await looking();
+  const bases: (readonly BaseRevision[])[] = [];
+  const settle = (_: unknown, base: readonly BaseRevision[]): Promise<boolean> => {
+    bases.push(base);
+    return Promise.resolve(false);
+  };
+  const read = (revision: number) => ({
+    people: [],
+    waiting: null,
+    changes: [DISPUTED],
+    base: [{ ...HERE, revision }],
+  });
+  const answers = [read(1), read(2)];
+  const api = { disagreements: () => Promise.resolve(answers.shift()), people: () => Promise.resolve({ days: [] }) };
+  const go = { wholeSequence: () => Promise.resolve() } as unknown as Navigation;
+  const world = { store: table.store, api } as unknown as World;
+  const settling = new Settling(world, go, { settle } as unknown as Correcting);
+  await settling.next();
+  await settling.open();
+  settling.take("first");
+  assert.deepEqual(bases, [[{ ...HERE, revision: 1 }]]);
 });
