@@ -16,20 +16,40 @@ pub struct Fold {
     pub tuned: Scores,
 }
 
+/// Whether each of the named sequences can be left out, before anything is searched for.
+///
+/// # Errors
+/// Fewer than two of them; or one without which there are no plausible detections, or no artifacts.
+pub fn check_folds(search: &Search, sequences: &[(String, MismatchTable)]) -> Result<(), TuneError> {
+    if sequences.len() < 2 {
+        return Err(TuneError::TooFewSequences(sequences.len()));
+    }
+    for (name, _) in sequences {
+        search.check(&others(sequences, name)).map_err(|error| match error {
+            TuneError::OneClass(missing) => TuneError::OneClassWithout { left_out: name.clone(), missing },
+            other => other,
+        })?;
+    }
+    Ok(())
+}
+
+fn others<'a>(sequences: &'a [(String, MismatchTable)], left_out: &str) -> Vec<&'a MismatchTable> {
+    sequences.iter().filter(|(other, _)| other != left_out).map(|(_, table)| table).collect()
+}
+
 /// A fold for each of the named sequences, in their order. `progress` is told the sequence that is left out, too.
+///
+/// # Errors
+/// Those of [`check_folds`] and [`Search::run`].
 pub fn leave_one_out(
     search: &Search,
     sequences: &[(String, MismatchTable)],
     progress: &mut dyn FnMut(&str, usize, &Found),
 ) -> Result<Vec<Fold>, TuneError> {
-    if sequences.len() < 2 {
-        return Err(TuneError::TooFewSequences(sequences.len()));
-    }
+    check_folds(search, sequences)?;
     let base = TunedSettings::from_config(search.base);
     let fold = |(name, table): &(String, MismatchTable)| {
-        let others = sequences.iter().filter(|(other, _)| other != name);
-        let others: Vec<&MismatchTable> = others.map(|(_, table)| table).collect();
-        let found = search.run(&others, &mut |trial, best| progress(name, trial, best))?;
+        let found = search.run(&others(sequences, name), &mut |trial, best| progress(name, trial, best))?;
         Ok(Fold {
             left_out: name.clone(),
             found,

@@ -22,7 +22,7 @@ mod table;
 mod threshold;
 
 pub use ablation::{JudgedVariant, Variant};
-pub use cross_validation::{Fold, leave_one_out};
+pub use cross_validation::{Fold, check_folds, leave_one_out};
 pub use file::settings_file;
 pub use gather::Gatherer;
 pub use mismatches::{DetectionMismatches, Weights};
@@ -40,6 +40,17 @@ pub enum TuneError {
     /// Every setting would do on labels of one class alone.
     #[error("expected plausible detections and artifacts to train on, found no {0}")]
     OneClass(&'static str),
+    /// The same of what is left where one sequence is left out.
+    #[error(
+        "cross-validation without {left_out}: expected plausible detections and artifacts to train on, found no \
+         {missing}"
+    )]
+    OneClassWithout {
+        /// The sequence that holds the only ones.
+        left_out: String,
+        /// Which they are.
+        missing: &'static str,
+    },
     /// Leaving one sequence out must leave another to train on.
     #[error("cross-validation: expected two training sequences or more, found {0}")]
     TooFewSequences(usize),

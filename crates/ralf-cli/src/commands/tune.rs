@@ -11,7 +11,7 @@ use crate::text::{print, shell_path, shell_word};
 use clap::Args;
 use ralf::config::Config;
 use ralf_data::{Settings, write_editable};
-use ralf_train::{Found, MismatchTable, Search, TunedSettings, leave_one_out, settings_file};
+use ralf_train::{Found, MismatchTable, Search, TunedSettings, check_folds, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
 
@@ -102,6 +102,9 @@ impl TuneArgs {
 
     fn tune(&self, base: &Config, Parts { train, test }: &Parts) -> anyhow::Result<Report> {
         let search = self.search.search(base);
+        if self.cross_validate {
+            check_folds(&search, train)?;
+        }
         let progress = self.search.progress("tuning");
         let found =
             search.run(&tables(train), &mut |trial, best| self.search.show(&progress, trial, best))?;

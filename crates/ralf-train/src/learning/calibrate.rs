@@ -11,7 +11,7 @@ pub(super) struct Answered {
 }
 
 /// Rows that are pooled.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Pool {
     weight: f64,
     log_odds: f64,
@@ -21,6 +21,13 @@ struct Pool {
 impl Pool {
     fn share(&self) -> f64 {
         self.plausible / self.weight
+    }
+
+    /// The same with one more.
+    fn and(mut self, row: &Answered) -> Self {
+        let plausible = if row.plausible { row.weight } else { 0.0 };
+        self.join(&Self { weight: row.weight, log_odds: row.log_odds * row.weight, plausible });
+        self
     }
 
     fn join(&mut self, other: &Self) {
@@ -42,18 +49,24 @@ pub(super) fn calibration(answered: &[Answered]) -> Calibration {
     let all: f64 = sorted.iter().map(|row| row.weight).sum();
     let mut pools: Vec<Pool> = Vec::new();
     let mut cell: Option<Pool> = None;
-    for row in &sorted {
-        let plausible = if row.plausible { row.weight } else { 0.0 };
-        let own = Pool { weight: row.weight, log_odds: row.log_odds * row.weight, plausible };
-        let cell_now = cell.get_or_insert(Pool { weight: 0.0, log_odds: 0.0, plausible: 0.0 });
-        cell_now.join(&own);
-        if cell_now.weight >= all / CELLS {
-            pools.extend(cell.take());
-            pool_what_falls(&mut pools);
+    let full = all / CELLS;
+    for alike in sorted.chunk_by(|a, b| a.log_odds == b.log_odds) {
+        // Of what is told the same, one part can't be more plausible than another: many are a cell of their own.
+        let together = alike.iter().fold(Pool::default(), |sum, row| sum.and(row));
+        if alike.len() > 1 && together.weight >= full {
+            cell.take().into_iter().chain([together]).for_each(|pool| add_rising(&mut pools, pool));
+            continue;
+        }
+        for row in alike {
+            let cell_now = cell.take().unwrap_or_default().and(row);
+            if cell_now.weight >= full {
+                add_rising(&mut pools, cell_now);
+            } else {
+                cell = Some(cell_now);
+            }
         }
     }
-    pools.extend(cell);
-    pool_what_falls(&mut pools);
+    cell.into_iter().for_each(|pool| add_rising(&mut pools, pool));
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pool in &pools {
         let share = (pool.plausible + DOUBT * 0.5) / (pool.weight + DOUBT);
@@ -67,8 +80,9 @@ pub(super) fn calibration(answered: &[Answered]) -> Calibration {
     Calibration::new(points).unwrap_or_else(|_| Calibration::even())
 }
 
-/// Joins the last pools until none falls below the one before.
-fn pool_what_falls(pools: &mut Vec<Pool>) {
+/// Adds a pool, and joins the last ones until none falls below the one before.
+fn add_rising(pools: &mut Vec<Pool>, pool: Pool) {
+    pools.push(pool);
     while let [.., before, last] = pools.as_mut_slice()
         && before.share() >= last.share()
     {
@@ -99,6 +113,20 @@ mod tests {
         for (log_odds, p) in [(-2.0, 0.2), (0.0, 0.5), (3.0, 0.9)] {
             let found = line.probability(log_odds + 5e-4);
             assert!((found - p).abs() < 0.02, "{found} for {p}");
+        }
+    }
+
+    #[test]
+    fn what_is_told_the_same_has_the_share_of_all_of_it_however_it_is_sorted() {
+        for artifacts_first in [true, false] {
+            let leaf = |log_odds: f64, plausible: usize| {
+                let is_plausible =
+                    move |i| if artifacts_first { i >= 500 - plausible } else { i < plausible };
+                (0..500).map(move |i| (log_odds, is_plausible(i)))
+            };
+            let line = calibration(&rows(&leaf(-1.0, 100).chain(leaf(0.5, 250)).collect::<Vec<_>>()));
+            let found = [-1.0, 0.5].map(|log_odds| line.probability(log_odds));
+            assert!((found[0] - 0.2).abs() < 0.01 && (found[1] - 0.5).abs() < 0.01, "{found:?}");
         }
     }
 

@@ -29,7 +29,7 @@ pub struct Fitted {
 }
 
 /// Why no model can be fitted.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum LearnError {
     /// Nothing is learned from one class.
     #[error("expected plausible detections and artifacts to learn from, found {plausible} and {artifacts}")]
@@ -38,6 +38,27 @@ pub enum LearnError {
         plausible: usize,
         /// How many are not.
         artifacts: usize,
+    },
+    /// A model that learned one class says the same of everything, which would be taken for what models say of a world.
+    #[error(
+        "expected plausible detections and artifacts in two worlds or more, so that each can be left out; found no \
+         {missing} without {left_out}"
+    )]
+    OneClassWithout {
+        /// The world that holds the only ones.
+        left_out: String,
+        /// Which they are.
+        missing: &'static str,
+    },
+    /// Nothing is corrected of a model whose answers are one.
+    #[error(
+        "expected a model that tells detections apart, found one whose probabilities go from {low:.2} to {high:.2}"
+    )]
+    SaysTheSame {
+        /// The lowest probability that it ever tells.
+        low: f64,
+        /// The highest.
+        high: f64,
     },
     /// Leaving one out must leave another.
     #[error(
@@ -135,8 +156,22 @@ fn refuse_what_cannot_be_learned(table: &TrainingTable) -> Result<(), LearnError
     if worlds < 2 {
         return Err(LearnError::TooFewWorlds(worlds));
     }
+    refuse_one_class_without(table)?;
     let is_observed = |row: usize| table.rows.row(row).iter().any(|value| !value.is_nan());
     if (0..table.len()).any(is_observed) { Ok(()) } else { Err(LearnError::NothingObserved) }
+}
+
+/// Refuses worlds of which one holds all plausible detections, or all artifacts.
+fn refuse_one_class_without(table: &TrainingTable) -> Result<(), LearnError> {
+    for (is_plausible, missing) in [(true, "plausible detections"), (false, "artifacts")] {
+        let of_class = table.known.iter().filter(|known| known.plausible == is_plausible);
+        let holding: BTreeSet<u16> = of_class.map(|known| known.world).collect();
+        if let (Some(world), 1) = (holding.first(), holding.len()) {
+            let left_out = table.worlds[usize::from(*world)].clone();
+            return Err(LearnError::OneClassWithout { left_out, missing });
+        }
+    }
+    Ok(())
 }
 
 impl<'a> Ground<'a> {
@@ -272,6 +307,10 @@ mod tests {
         let mut one_class = table(10, 10);
         one_class.known.iter_mut().for_each(|known| known.plausible = false);
         assert_eq!(fitted(&one_class, 1), Err(LearnError::OneClass { plausible: 0, artifacts: 100 }));
+        let mut all_in_town = table(30, 10);
+        all_in_town.known.iter_mut().filter(|known| known.world > 0).for_each(|known| known.plausible = true);
+        let found = fitted(&all_in_town, 1).unwrap_err();
+        assert!(found.to_string().ends_with("found no artifacts without town"), "{found}");
         let mut one_world = table(10, 10);
         one_world.known.iter_mut().for_each(|known| known.world = 0);
         assert_eq!(fitted(&one_world, 1), Err(LearnError::TooFewWorlds(1)), "others without rows are none");

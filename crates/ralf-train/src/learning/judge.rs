@@ -27,16 +27,19 @@ pub struct LeftOut {
     pub suites: Vec<SuiteScores>,
 }
 
-/// Rows of some worlds, in which every world counts the same.
+/// Rows of some worlds, in which every world counts the same, but where it has few ([`World::say_of`]).
 pub(super) fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -> Vec<Answered> {
-    let mut rows = vec![0.0; table.worlds.len()];
+    let (mut rows, mut detections) = (vec![0.0; table.worlds.len()], vec![0; table.worlds.len()]);
     for known in &table.known {
         rows[usize::from(known.world)] += 1.0;
+        detections[usize::from(known.world)] += u64::from(known.view == View::Whole);
     }
-    let worlds = rows.iter().filter(|rows| **rows > 0.0).count() as f64;
+    let says: Vec<f64> = detections.into_iter().map(World::say_of).collect();
+    let all: f64 = says.iter().sum();
     let mut found = Vec::new();
     for (known, log_odds) in table.known.iter().zip(log_odds).filter(|(known, _)| of(known.world)) {
-        let weight = table.len() as f64 / (worlds * rows[usize::from(known.world)]);
+        let world = usize::from(known.world);
+        let weight = table.len() as f64 / (all / says[world] * rows[world]);
         found.push(Answered { log_odds: *log_odds, plausible: known.plausible, weight });
     }
     found

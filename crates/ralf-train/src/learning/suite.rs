@@ -46,14 +46,23 @@ pub(super) fn suites_of(table: &TrainingTable) -> Vec<u16> {
     }
     let mut suites = Vec::with_capacity(table.len());
     for (row, known) in table.known.iter().enumerate() {
-        let by_radar = if holds(row, elevation) { 1 << LESS } else { 2 << LESS };
-        let by_camera = if is_seen[known.scan as usize] { 4 << LESS } else { 8 << LESS };
+        let by_radar = told(elevation, holds(row, elevation), [1 << LESS, 2 << LESS]);
+        let by_camera = told(camera, is_seen[known.scan as usize], [4 << LESS, 8 << LESS]);
         suites.push(match known.view {
             View::Whole => by_radar | by_camera,
             less => 1 << (less as u16 - 1),
         });
     }
     suites
+}
+
+/// One of two parts, or neither where the column that tells them apart isn't there.
+fn told(column: Option<usize>, is: bool, [yes, no]: [u16; 2]) -> u16 {
+    match column {
+        Some(_) if is => yes,
+        Some(_) => no,
+        None => 0,
+    }
 }
 
 #[cfg(test)]
@@ -84,6 +93,8 @@ mod tests {
         assert_eq!(named(1), ["single frame"]);
         assert_eq!(named(3), ["radars with elevation", "scans that a camera sees"]);
         assert_eq!(named(5), ["radars with elevation", "scans that no camera sees"]);
+        let without = table.without_groups(&["Geometry".to_owned(), "Camera".to_owned()]);
+        assert_eq!(suites_of(&without)[0], 0, "what isn't asked tells no parts apart");
     }
 
     #[test]

@@ -41,6 +41,15 @@ pub struct Found {
 }
 
 impl Search<'_> {
+    /// Whether anything can be found on some tables together.
+    ///
+    /// # Errors
+    /// Base settings out of their range; tables without plausible detections, or without artifacts.
+    pub fn check(&self, tables: &[&MismatchTable]) -> Result<(), TuneError> {
+        self.base.check()?;
+        BranchesSeen::new(tables, &TunedSettings::from_config(self.base)).map(drop)
+    }
+
     /// The best settings for some tables together; never worse there than the base's. `progress` is told of each trial,
     /// counted from 1, and of the best so far.
     pub fn run(

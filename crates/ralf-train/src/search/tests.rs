@@ -1,7 +1,7 @@
 use super::*;
 use crate::table::Row;
 use crate::{DetectionMismatches, Weights};
-use crate::{Space, leave_one_out};
+use crate::{Space, check_folds, leave_one_out};
 
 const SCAN: usize = 20;
 
@@ -163,4 +163,10 @@ fn each_fold_is_tuned_without_the_sequence_it_is_judged_on() {
         leave_one_out(&search, &sequences[..1], &mut |_, _, _| {}),
         Err(TuneError::TooFewSequences(1))
     );
+    let mut of_one_class = MismatchTable::new(sequences[0].1.space().clone());
+    let mut rng = Pcg64Mcg::seed_from_u64(0);
+    of_one_class.push_scan([Row { plausible: true, ..row(&mut rng, &Weights::from(&base)) }]);
+    let mixed_alone = [sequences[0].clone(), ("01".to_owned(), of_one_class)];
+    let refused = TuneError::OneClassWithout { left_out: "00".to_owned(), missing: "artifacts" };
+    assert_eq!(check_folds(&search, &mixed_alone), Err(refused));
 }

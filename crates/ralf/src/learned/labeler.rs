@@ -8,7 +8,7 @@ use super::reason::Telling;
 use super::rows::Rows;
 use super::shapley::Explainer;
 use super::visibility::Visibility;
-use super::weighing::Weighing;
+use super::weighing::{Weighing, refuse_unknown_share};
 use crate::config::Config;
 use crate::evidence::{Column, Feature, GROUPS, features};
 use crate::label::flag;
@@ -84,6 +84,7 @@ impl<'a> LearnedLabeler<'a> {
     /// A model that this program can't use, or whose reasons it can't tell; a setting out of its range.
     pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
         let paper = Labeler::new(config)?;
+        refuse_unknown_share(model, &config.learned)?;
         let known: Vec<&'static Feature> = features().collect();
         let inputs: Vec<&'static Feature> = model.places()?.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();

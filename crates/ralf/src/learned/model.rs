@@ -67,6 +67,17 @@ pub struct World {
     pub scores: Vec<(String, String)>,
 }
 
+impl World {
+    /// With so many detections it has its full say: fewer tell more of themselves than of where they come from.
+    const FULL_SAY: u64 = 512;
+
+    /// How much a world of so many detections counts beside others in a model's calibration and share: as much as any
+    /// other, but where it has few.
+    pub fn say_of(detections: u64) -> f64 {
+        detections.min(Self::FULL_SAY) as f64
+    }
+}
+
 /// One feature that a model reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
@@ -115,6 +126,12 @@ pub enum UseError {
         "the model's trees ask too many groups of evidence for reasons to be told: set learned.reasons = false"
     )]
     TooManyCases,
+    /// A share to expect, of a model that doesn't tell in which it was trained.
+    #[error(
+        "the model does not tell what share of detections was plausible where it was trained, from which learned.share \
+         would turn its answers: leave it at 0"
+    )]
+    NoShare,
     /// A setting out of its range.
     #[error(transparent)]
     Config(#[from] ConfigError),
@@ -158,13 +175,14 @@ impl Model {
     }
 
     /// The share of detections that is plausible where it was trained, in [0, 1]: the mean of its worlds, which count
-    /// alike in its calibration; 0 where it names none.
+    /// as in its calibration ([`World::say_of`]); 0 where it names none.
     pub fn share(&self) -> f64 {
         let filled = self.origin.worlds.iter().filter(|world| world.detections > 0);
-        let (worlds, sum) = filled.fold((0.0, 0.0), |(worlds, sum), world| {
-            (worlds + 1.0, sum + world.plausible as f64 / world.detections as f64)
+        let (all, plausible) = filled.fold((0.0, 0.0), |(all, plausible), world| {
+            let say = World::say_of(world.detections);
+            (all + say, plausible + say * (world.plausible as f64 / world.detections as f64))
         });
-        if worlds > 0.0 { sum / worlds } else { 0.0 }
+        if all > 0.0 { plausible / all } else { 0.0 }
     }
 
     /// Where each feature that the model reads stands among [`features`].

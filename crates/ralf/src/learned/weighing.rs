@@ -2,7 +2,7 @@
 //! expected, less where nobody but the radar speaks, and for as many real movers as the scan tells of.
 
 use super::calibration::{Calibration, with_odds};
-use super::model::Model;
+use super::model::{Model, UseError};
 use super::movers::Movers;
 use super::rows::Rows;
 use super::unconfirmed::Unconfirmed;
@@ -69,6 +69,14 @@ impl Weighing {
     }
 }
 
+/// Refuses a share in the settings that nothing can be turned into: the model doesn't tell its own.
+pub(super) fn refuse_unknown_share(model: &Model, config: &LearnedConfig) -> Result<(), UseError> {
+    if config.share > 0.0 && !turns(model.share(), config.share) {
+        return Err(UseError::NoShare);
+    }
+    Ok(())
+}
+
 /// The share of plausible detections that the settings expect, or else the model; 0 where neither does.
 fn wanted(model: &Model, config: &LearnedConfig) -> f64 {
     if config.share > 0.0 { config.share } else { model.expects.unwrap_or(0.0) }
@@ -98,6 +106,17 @@ mod tests {
         assert_eq!(wanted(&model, &config), 0.2);
         (model.expects, config.share) = (None, 0.0);
         assert_eq!(wanted(&model, &config), 0.0);
+    }
+
+    #[test]
+    fn a_share_can_be_asked_of_models_that_tell_their_own() {
+        let (mut model, mut config) = (Model::shipped().unwrap(), LearnedConfig::default());
+        config.share = 0.2;
+        assert_eq!(refuse_unknown_share(&model, &config), Ok(()));
+        model.origin.worlds.clear();
+        assert_eq!(refuse_unknown_share(&model, &config), Err(UseError::NoShare));
+        config.share = 0.0;
+        assert_eq!(refuse_unknown_share(&model, &config), Ok(()));
     }
 
     #[test]

@@ -29,6 +29,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How much what somebody left alone counts, beside what they spoke of in the same scan.
 pub const LEFT_ALONE: f32 = 0.3;
+/// The least that a model's probabilities differ by, so that it can be corrected.
+const TELLING_APART: f64 = 0.2;
 
 /// How a model is corrected.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +67,8 @@ pub struct CorrectedModel {
 ///
 /// # Errors
 /// A table of which nobody said anything or in which all is alike, what was left alone, too; one that lacks what the
-/// model reads; or a model that was corrected already: what it knows of these recordings would be learned twice.
+/// model reads; a model that says nearly the same of everything; or one that was corrected already: what it knows of
+/// these recordings would be learned twice.
 pub fn correct(
     begin: &Model,
     table: &TrainingTable,
@@ -79,6 +82,7 @@ pub fn correct(
     if !table.known.iter().any(|known| known.said) {
         return Err(LearnError::NothingSaid);
     }
+    refuse_the_same_of_all(begin)?;
     let says = Says::new(begin, table, &correcting.learned)?;
     let ground = Ground::new(begin, table, &says, correcting.threshold);
     LearnError::of_one_class(ground.target.iter().copied())?;
@@ -102,6 +106,14 @@ pub fn correct(
     model.corrected = Some(Corrected { forest, worlds: judged.iter().map(Judged::told).collect() });
     model.origin = Origin { worlds: begin.origin.worlds.clone(), ..origin };
     Ok(CorrectedModel { model, judged })
+}
+
+/// A correction goes through the model's calibration: where that hardly rises, nothing comes of it.
+fn refuse_the_same_of_all(model: &Model) -> Result<(), LearnError> {
+    let mut told = model.calibration.points().iter().map(|(_, probability)| *probability);
+    let low = told.next().unwrap_or(0.5);
+    let high = told.next_back().unwrap_or(low);
+    if high - low < TELLING_APART { Err(LearnError::SaysTheSame { low, high }) } else { Ok(()) }
 }
 
 /// What trees are grown of.

@@ -2,6 +2,7 @@ use super::super::testing::{small, table};
 use super::super::{Fitting, fit};
 use super::*;
 use ralf::config::Config;
+use ralf::learned::Calibration;
 use std::sync::LazyLock;
 
 /// A model of the first feature, fitted once.
@@ -178,6 +179,10 @@ fn silence_one_class_a_corrected_model_and_missing_evidence_are_refused() {
     let once = corrected(&own, 1).unwrap().model;
     let twice = correct(&once, &own, &correcting(1), Origin::default(), &|_, _| {});
     assert_eq!(twice, Err(LearnError::AlreadyCorrected));
+    let mut level = begin().clone();
+    level.calibration = Calibration::new(vec![(-1.0, 0.3), (2.0, 0.45)]).unwrap();
+    let same = correct(&level, &own, &correcting(1), Origin::default(), &|_, _| {});
+    assert_eq!(same, Err(LearnError::SaysTheSame { low: 0.3, high: 0.45 }));
     let blind = own.without_groups(&[own.features[0].group.to_owned()]);
     assert!(matches!(corrected(&blind, 1), Err(LearnError::Use(_))));
     own.known.iter_mut().for_each(|known| known.plausible = false);

@@ -33,7 +33,11 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     let expects = reader.next_if("expects")?.map(|line| line.share()).transpose()?;
     let mut inputs = Vec::new();
     while let Some(line) = reader.next_if("input")? {
-        inputs.push(line.input()?);
+        let input = line.input()?;
+        if inputs.iter().any(|known: &Input| known.name == input.name) {
+            return Err(line.refuse("each input once"));
+        }
+        inputs.push(input);
     }
     let calibration = reader.calibration()?;
     let plausible = reader.forest("plausible")?;
@@ -231,12 +235,16 @@ impl Line<'_> {
     }
 
     fn input(&self) -> Result<Input, ReadError> {
-        let refuse = || self.refuse("input, a name and four finite numbers");
+        let refuse =
+            || self.refuse("input, a name, a rising range, a share in [0, 1] and a worth of 0 or more");
         let (name, numbers) = self.rest.split_once(' ').ok_or_else(refuse)?;
         let numbers: Option<Vec<f32>> = numbers.split(' ').map(|word| word.parse().ok()).collect();
         match numbers.as_deref() {
             Some(&[low, high, absent, gain])
-                if [low, high, absent, gain].iter().all(|number| number.is_finite()) =>
+                if [low, high, absent, gain].iter().all(|number| number.is_finite())
+                    && low <= high
+                    && (0.0..=1.0).contains(&absent)
+                    && gain >= 0.0 =>
             {
                 Ok(Input { name: name.to_owned(), seen: Seen { low, high, absent, gain } })
             }
