@@ -4,7 +4,7 @@ use super::Surroundings;
 use super::distance::ROOM;
 use super::rates::Rates;
 use crate::scene::{Ordered, Strength};
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// Ranges and azimuths are the same if they differ by no more, in standard deviations of such a difference.
 const SAME: f64 = 2.0;
@@ -99,9 +99,8 @@ impl<'a> Echoes<'a> {
             return Before::default();
         }
         let (mut count, mut last, mut bounce) = (0, f64::NEG_INFINITY, f64::INFINITY);
-        let tolerance = SAME * SQRT_2 * self.sigma_azimuth;
         let end = range - SAME * SQRT_2 * self.sigma_range;
-        for other in self.by_azimuth.within(self.azimuths[i] - tolerance..=self.azimuths[i] + tolerance) {
+        for other in self.towards(self.azimuths[i]) {
             // Without a branch: nobody foresees it.
             let counts = (other.range < end) & (other.cross_section > cross_section);
             count += i32::from(counts);
@@ -116,6 +115,18 @@ impl<'a> Echoes<'a> {
             distance: found(range - last),
             double_bounce: found(bounce / (5.0f64.sqrt() * self.sigma_range)),
         }
+    }
+
+    /// The reflectors at an azimuth; behind the radar one turn ends and the next begins.
+    fn towards(&self, azimuth: f64) -> impl Iterator<Item = &Reflector> {
+        let tolerance = (SAME * SQRT_2 * self.sigma_azimuth).min(PI);
+        let within = move |turn: f64| {
+            let azimuth = azimuth + turn;
+            self.by_azimuth.within(azimuth - tolerance..=azimuth + tolerance)
+        };
+        let beyond = if azimuth + tolerance > PI { Some(-TAU) } else { None };
+        let beyond = beyond.or((azimuth - tolerance < -PI).then_some(TAU));
+        within(0.0).iter().chain(beyond.into_iter().flat_map(within))
     }
 
     /// The echoes beside a detection.
@@ -134,7 +145,8 @@ impl<'a> Echoes<'a> {
             }
             others += 1;
             less += i32::from(over < 0.0);
-            let away = (other.azimuth - self.azimuths[i]).abs();
+            let apart = (other.azimuth - self.azimuths[i]).abs();
+            let away = apart.min(TAU - apart);
             angle = if (over > 0.0) & (away < angle) { away } else { angle };
             let is_stronger = over > side_lobe && away > SAME * SQRT_2 * self.sigma_azimuth;
             if is_stronger && self.at_same_rate(i, other.detection) {

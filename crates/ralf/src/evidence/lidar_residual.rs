@@ -54,7 +54,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         let (mut across, mut up) = (0.0, 0.0);
         let nearest = cloud.nearest(&mut association, detection);
         let Some(way) = nearest.first().map(|first| detection.position - first.position) else { continue };
-        if way.norm() > NEAR {
+        let distance = if is_level { way.xy().norm() } else { way.norm() };
+        if distance > NEAR {
             continue;
         }
         for reference in &nearest {
@@ -62,7 +63,6 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             across += mismatch(&Vector::new(h.x, h.y, 0.0), &spread, &reference.spread);
             up += mismatch(&Vector::new(0.0, 0.0, h.z), &spread, &reference.spread).copysign(h.z);
         }
-        let distance = if is_level { way.xy().norm() } else { way.norm() };
         let [horizontal, vertical] = [across, up].map(|sum| sum / nearest.len() as f64);
         let vertical = Some(vertical).filter(|_| !is_level);
         set(&mut columns, i, [Some(distance), Some(horizontal), vertical]);

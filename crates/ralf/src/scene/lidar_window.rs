@@ -43,7 +43,7 @@ impl LidarWindow {
 
     /// What stands still, in the vehicle frame at the middle.
     pub fn map(&self) -> &StaticMap {
-        self.map.get_or_init(|| StaticMap::new(&self.views, self.ground()))
+        self.map.get_or_init(|| StaticMap::new(self.t_ns, &self.views, self.ground()))
     }
 
     /// What the ground is like, in the vehicle frame at the middle.

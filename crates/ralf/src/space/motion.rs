@@ -103,14 +103,21 @@ impl EgoMotion {
     }
 
     /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time: measured by the
-    /// wheels where there is odometry, else from the poses around.
+    /// wheels where there is odometry, else from the poses around. Where poses span the time, they are asked, too, once
+    /// the wheels' last word is half a second old: a log may end, or have a gap.
     pub fn twist(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
+        const OLD_NS: u64 = 500_000_000;
         match self.odometry.get(self.sample_at(t_ns)) {
-            Some(sample) => {
+            Some(sample) if sample.t_ns.abs_diff(t_ns) <= OLD_NS || !self.poses_span(t_ns) => {
                 (Vector3::new(sample.velocity, 0.0, 0.0), Vector3::new(0.0, 0.0, sample.yaw_rate))
             }
-            None => self.twist_of_poses(t_ns),
+            _ => self.twist_of_poses(t_ns),
         }
+    }
+
+    fn poses_span(&self, t_ns: i64) -> bool {
+        let span = self.poses.first().zip(self.poses.last());
+        span.is_some_and(|(first, last)| (first.t_ns..=last.t_ns).contains(&t_ns))
     }
 
     fn twist_of_poses(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
@@ -264,7 +271,9 @@ mod tests {
         assert!((halfway.rotation.euler_angles().2 - 0.5).abs() < 1e-12);
         assert_eq!(motion.odom_from_vehicle(-SECOND).translation.x, 0.0);
         assert_eq!(motion.odom_from_vehicle(9 * SECOND).translation.x, 4.0);
-        assert_eq!(motion.twist(SECOND).0.x, 99.0, "the wheels measure it");
+        assert_eq!(motion.twist(SECOND / 2).0.x, 99.0, "the wheels measure it");
+        assert!((motion.twist(SECOND).0.norm() - 2.0).abs() < 1e-3, "what they said long ago holds no more");
+        assert_eq!(motion.twist(9 * SECOND).0.x, 99.0, "nor is there a pose");
         let (velocity, turn) = EgoMotion::new(vec![], motion.poses().to_vec()).unwrap().twist(SECOND);
         assert!((velocity.norm() - 2.0).abs() < 1e-3 && (turn.z - 0.5).abs() < 1e-9);
     }

@@ -5,8 +5,8 @@ use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow, NeighbouringDetections};
 use ralf::sensors::{
-    Camera, CameraImage, DepthImage, Elevation, Intrinsics, LidarScan, RadarScan, Rig, Sequence, Source,
-    SourceError,
+    Camera, CameraImage, DepthImage, Elevation, Intrinsics, Lidar, LidarScan, RadarScan, Rig, Sequence,
+    Source, SourceError,
 };
 use ralf::space::Transform;
 
@@ -91,6 +91,67 @@ fn the_lidar_scans_around_are_spread_and_shared() {
     }
     let next = window.frame(0, 30).unwrap().lidar_window.unwrap();
     assert!(std::sync::Arc::ptr_eq(&around.window, &next.window));
+}
+
+/// At each moment that is asked, whether there is a window.
+fn has_window(source: &dyn Source, scans: [usize; 3]) -> [bool; 3] {
+    let config = Config::default();
+    let mut window = FrameWindow::new(source, &source.sequence().rig, &config).with_evidence();
+    scans.map(|scan| window.frame(0, scan).unwrap().lidar_window.is_some())
+}
+
+#[test]
+fn where_the_first_lidar_falls_silent_the_next_one_has_the_say() {
+    let all = memory();
+    assert_eq!(has_window(&all, [0, 30, 59]), [true; 3]);
+    let mut silent = memory();
+    silent.sequence.times.lidars[0].truncate(3);
+    assert_eq!(has_window(&silent, [0, 30, 59]), [true, false, false]);
+    let scans = all.sequence.times.lidars[0].iter().copied().zip(all.lidar_scans[0].clone()).collect();
+    let with_another = silent.lidar(Lidar { name: "other".into(), ..lidar() }, scans);
+    assert_eq!(has_window(&with_another, [0, 30, 59]), [true; 3]);
+}
+
+#[test]
+fn scans_that_come_twice_leave_a_window_everywhere() {
+    let mut twice = memory();
+    for apart in [0, 1, MS] {
+        let times = &memory().sequence.times.lidars[0];
+        twice.sequence.times.lidars[0] = times.iter().flat_map(|t_ns| [*t_ns, t_ns + apart]).collect();
+        twice.lidar_scans[0] =
+            memory().lidar_scans[0].iter().flat_map(|scan| [scan.clone(), scan.clone()]).collect();
+        assert_eq!(has_window(&twice, [0, 30, 59]), [true; 3], "{apart} ns apart");
+    }
+}
+
+/// Of no LiDAR scan anything is known from the twelfth on.
+struct Torn(Memory);
+
+impl Source for Torn {
+    fn sequence(&self) -> &Sequence {
+        self.0.sequence()
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        self.0.radar_scan(radar, scan)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        if scan < 12 { self.0.lidar_scan(lidar, scan) } else { Err("cut short".into()) }
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        self.0.image(camera, image)
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        self.0.depth(camera, image)
+    }
+}
+
+#[test]
+fn scans_that_cannot_be_read_are_none_and_not_an_empty_world() {
+    assert_eq!(has_window(&Torn(memory()), [0, 20, 59]), [true, true, false]);
 }
 
 fn camera() -> Camera {

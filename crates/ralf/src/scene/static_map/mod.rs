@@ -34,12 +34,16 @@ pub struct StaticMap {
 }
 
 impl StaticMap {
-    /// The map of LiDAR scans, each with the way to the map's frame, above a ground; without one above z = 0.
-    pub fn new(views: &[LidarView], ground: Option<&GroundSurface>) -> Self {
+    /// The map of LiDAR scans in the order of time, each with the way to the map's frame, which is that of a time, ns;
+    /// above a ground, without one above z = 0.
+    pub fn new(t_ns: i64, views: &[LidarView], ground: Option<&GroundSurface>) -> Self {
         let standing: usize = views.iter().map(|view| view.moment.standing_points().len()).sum();
         let mut voxels = Voxels::new();
-        // What stands still needs not be seen in every scan.
-        for view in views.iter().step_by(standing.div_ceil(ENOUGH).max(1)) {
+        // What stands still needs not be seen in every scan, but in that of the map's own time.
+        let every = standing.div_ceil(ENOUGH).max(1);
+        let nearest = views.iter().enumerate().min_by_key(|(_, view)| view.moment.t_ns.abs_diff(t_ns));
+        let first = nearest.map_or(0, |(place, _)| place % every);
+        for view in views.iter().skip(first).step_by(every) {
             let map_from_moment: Isometry3<f32> = view.vehicle_from_moment.cast();
             for point in view.moment.standing_points() {
                 let point: [f32; 3] = (map_from_moment * Point3::from(*point)).into();

@@ -56,7 +56,7 @@ fn what_stands_still_is_kept_and_what_moved_is_not() {
         [20.0, 0.0, 0.0],
     ]);
     let column = |views: &[LidarView], x: f64| {
-        StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1, [1.0, f64::INFINITY]).0
+        StaticMap::new(0, views, ground.as_ref()).columns.at(x, 0.1, [1.0, f64::INFINITY]).0
     };
     let wall = column(&passing, 20.1).unwrap();
     // To a voxel; the box hides the wall's foot in every scan.
@@ -70,6 +70,22 @@ fn what_stands_still_is_kept_and_what_moved_is_not() {
     assert_eq!(column(&passing, 5.0), None, "the road is no obstacle");
     // A scan alone can't tell.
     assert!(column(&views(vec![scene(Some(8.0))]), 8.05).is_some());
+}
+
+/// Scans with very many points aren't all taken, but the one of the map's own time is: nearer, it sees more.
+#[test]
+fn of_dense_scans_that_of_the_maps_time_is_taken() {
+    let many =
+        |x: f32| (0..100_000).map(|i| [x, (i % 300) as f32 * 0.1, 1.0 + (i / 300) as f32 * 0.01]).collect();
+    let mut views = views((0..5).map(|k| many(5.0 + k as f32)).collect());
+    for (k, view) in views.iter_mut().enumerate() {
+        let moment = Arc::get_mut(&mut view.moment).unwrap();
+        moment.t_ns = 200_000_000 * k as i64;
+    }
+    for (t_ns, x) in [(0, 5.0), (400_000_000, 7.0), (800_000_000, 9.0)] {
+        let map = StaticMap::new(t_ns, &views, None);
+        assert!(map.points.iter().any(|point| point[0] == x), "{t_ns}");
+    }
 }
 
 #[test]

@@ -47,17 +47,19 @@ impl FrameWindow<'_> {
         around
     }
 
-    /// The LiDAR scans around a time; `None` where there are none.
+    /// The LiDAR scans around a time; `None` where there are none, or none that can be read.
     ///
-    /// Only every so many scans of the first LiDAR are taken, counted from the recording's begin, and the window is the
-    /// one around one of these. So radar scans that follow each other share a window, and windows share their scans.
+    /// Only every so many scans are taken of the first LiDAR that measured around this time, counted from the
+    /// recording's begin, and the window is the one around one of these. So radar scans that follow each other share a
+    /// window, and windows share their scans.
     pub(super) fn lidar_window(&mut self, t_ns: i64) -> Option<LidarWindowView> {
         let reach = nanoseconds(self.config.evidence.lidar_reach_ms);
-        let timelines = &self.source.sequence().times.lidars;
-        let (lidar, times) = timelines.iter().enumerate().find(|(_, times)| !times.is_empty())?;
-        let stride = stride(times, &self.config.evidence);
-        let chosen: Vec<i64> = times.iter().copied().step_by(stride).collect();
-        let middle = sync::nearest(&chosen, t_ns, reach)?;
+        let mut timelines = self.source.sequence().times.lidars.iter().enumerate();
+        let (lidar, chosen, middle) = timelines.find_map(|(lidar, times)| {
+            let stride = stride(times, &self.config.evidence);
+            let chosen: Vec<i64> = times.iter().copied().step_by(stride).collect();
+            sync::nearest(&chosen, t_ns, reach).map(|middle| (lidar, chosen, middle))
+        })?;
         let middle_time = chosen[middle];
         let vehicle_from_window = self.source.sequence().motion.between(t_ns, middle_time);
         let known = self.lidar_windows.get(&(lidar, middle));
@@ -66,7 +68,9 @@ impl FrameWindow<'_> {
             self.lidar_windows.insert((lidar, middle), window.clone());
             window
         });
-        Some(LidarWindowView { window: self.noted(window), vehicle_from_window })
+        let window = self.noted(window);
+        // What nothing was read of isn't empty.
+        (!window.views.is_empty()).then_some(LidarWindowView { window, vehicle_from_window })
     }
 
     /// The LiDAR scans around one of the chosen times.
@@ -103,9 +107,23 @@ fn stride(times: &[i64], config: &EvidenceConfig) -> usize {
     let mut periods: Vec<i64> = times.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect();
     periods.sort_unstable();
     let Some(period) = periods.get(periods.len() / 2) else { return 1 };
-    let to_each_side = nanoseconds(config.lidar_reach_ms).unsigned_abs() / period.unsigned_abs().max(1);
+    let reach = nanoseconds(config.lidar_reach_ms);
+    let mut to_each_side = reach.unsigned_abs() / period.unsigned_abs().max(1);
+    // Where scans come in pairs or have each time twice, most periods say nothing of how many there are.
+    let all = times.first().zip(times.last()).map_or(0, |(first, last)| last.saturating_sub(*first));
+    if period.saturating_mul(2 * periods.len() as i64) < all || *period == 0 {
+        to_each_side = to_each_side.min(fullest(times, reach) as u64);
+    }
     let wanted = (config.lidar_scans as u64 - 1) / 2;
     usize::try_from(to_each_side.div_ceil(wanted.max(1))).unwrap_or(usize::MAX).max(1)
+}
+
+/// How many of some times follow any of them within a reach at most, ns.
+fn fullest(times: &[i64], reach: i64) -> usize {
+    let after = |(at, time): (usize, &i64)| {
+        times[at..].partition_point(|other| other.saturating_sub(*time) <= reach) - 1
+    };
+    times.iter().enumerate().map(after).max().unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -119,7 +137,11 @@ mod tests {
         // 20 Hz: 20 to each side, of which 5 are wanted; 10 Hz: every second; 2 Hz: all of them.
         assert_eq!([50, 100, 500].map(|ms| stride(&every(ms), &config)), [4, 2, 1]);
         assert_eq!(stride(&[], &config), 1);
-        assert_eq!(stride(&[7, 7, 7], &config), 200_000_000, "a clock that stands still");
+        assert_eq!(stride(&[7, 7, 7], &config), 1, "a clock that stands still");
+        let pairs = |apart: i64| -> Vec<i64> {
+            (0..100).flat_map(|scan| [100_000_000 * scan, 100_000_000 * scan + apart]).collect()
+        };
+        assert_eq!([0, 1, 1_000_000].map(|apart| stride(&pairs(apart), &config)), [5, 4, 4], "two at a time");
     }
 
     #[test]

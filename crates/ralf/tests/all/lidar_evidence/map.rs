@@ -65,6 +65,18 @@ fn without_elevation_the_map_is_asked_at_a_supposed_height() {
     close(column(&found, "sight_behind_surface")[1], 9.0, 0.35);
 }
 
+/// The nearest point in the plane may lie far above: how high it is, such a radar can't tell.
+#[test]
+fn without_elevation_a_tall_facade_is_as_near_as_a_low_one() {
+    let facade = |z: f32| [60.0, 0.0, z];
+    let memory = Memory::new(0.0)
+        .radar(radar(Elevation::None), vec![(0, Some(vec![[59.5, 0.0, 0.0]]))])
+        .lidar(crate::support::lidar(), vec![(0, (0..40).map(|k| facade(5.0 + 0.1 * k as f32)).collect())]);
+    let found = observe(&memory, 0);
+    close(column(&found, "lidar_distance")[0], 0.5, 1e-3);
+    assert!(column(&found, "lidar_residual_horizontal")[0].is_some());
+}
+
 #[test]
 fn scans_that_saw_it_again_place_it_on_the_wall() {
     // The radar tells the wall half a metre too near in the scan that is asked, and where it is in those around.

@@ -288,6 +288,30 @@ fn context_by_hand() {
     close(&column(&found, "context_side_lobe"), &[Some(-25.0), None, None, Some(25.0), None, None]);
 }
 
+/// Behind the radar one turn ends and the next begins: what lies there has the neighbours that it has elsewhere.
+#[test]
+fn a_radar_that_sees_all_around_has_no_seam() {
+    let around = |turn: f32| {
+        let row = |range: f32, degrees: f32, rcs: f32| {
+            let (sin, cos) = (turn + degrees).to_radians().sin_cos();
+            vec![[range * cos, range * sin, 0.0, 0.0, rcs]]
+        };
+        let scan = [row(10.0, 0.3, 20.0), row(14.5, -0.3, 0.0), row(10.0, -0.2, -5.0), row(10.0, 30.0, 5.0)]
+            .concat();
+        let radar = Radar { fov_azimuth: 2.0 * std::f64::consts::PI, ..front() };
+        observe(&drive(vec![(radar, vec![(0, scan)])]), 0)
+    };
+    let (left, behind) = (around(90.0), around(180.0));
+    for name in ["context_before", "context_before_distance", "context_beside_angle", "context_side_lobe"] {
+        let expected = column(&left, name);
+        assert!(expected.iter().any(Option::is_some), "{name}");
+        for (found, expected) in column(&behind, name).into_iter().zip(expected) {
+            let apart = found.zip(expected).map_or(0.0, |(found, expected)| f64::abs(found - expected));
+            assert!(found.is_some() == expected.is_some() && apart < 1e-3, "{name}: {found:?}, {expected:?}");
+        }
+    }
+}
+
 #[test]
 fn what_a_wall_mirrors_is_found_on_the_radars_side_of_it() {
     // A wall along the left, 5 m away. A post at (10, 2) and its image at (10, 8), a weaker one that is nobody's
