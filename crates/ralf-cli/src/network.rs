@@ -84,11 +84,14 @@ pub(crate) fn store_folder<'a>(
     named: Option<&'a Path>,
     recording: &'a Recording,
 ) -> anyhow::Result<&'a Path> {
-    let Some(folder) = named else { return own_folder(recording) };
-    if folder != recording.path {
-        refuse_to_write_into(&recording.path, folder)?;
-    }
+    let Some(folder) = named_elsewhere(named, recording) else { return own_folder(recording) };
+    refuse_to_write_into(&recording.path, folder)?;
     Ok(folder)
+}
+
+/// The folder that is named, where that isn't the recording's own.
+pub(crate) fn named_elsewhere<'a>(named: Option<&'a Path>, recording: &Recording) -> Option<&'a Path> {
+    named.filter(|folder| *folder != recording.path)
 }
 
 /// The folder of a recording that can keep what a network says of its images: one of the own layout, for others are
@@ -111,7 +114,7 @@ pub(crate) fn without_links<V: StoredView>(
     named: Option<&Path>,
     recording: &Recording,
 ) -> anyhow::Result<Store<V>> {
-    if named.is_none() {
+    if named_elsewhere(named, recording).is_none() {
         let wanted = "expected -o FOLDER, for nothing is written through a link out of the recording";
         store.refuse_links(recording).context(wanted)?;
     }

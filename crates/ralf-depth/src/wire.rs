@@ -28,6 +28,7 @@ enum Message {
     Type,
     Tensor,
     Shape,
+    Sizes,
     /// One of strings, numbers and bytes alone.
     Plain,
 }
@@ -43,14 +44,14 @@ impl Message {
             Self::Value => "an input or output",
             Self::Type => "a type",
             Self::Tensor => "a tensor",
-            Self::Shape => "a shape",
+            Self::Shape | Self::Sizes => "a shape",
             Self::Plain => "a text or a list of numbers",
         }
     }
 
     /// The message in a field, where there is one.
     fn field(self, number: u64) -> Option<Self> {
-        use Message::{Attribute, Graph, Model, Node, Plain, Shape, Tensor, Type, Value};
+        use Message::{Attribute, Graph, Model, Node, Plain, Shape, Sizes, Tensor, Type, Value};
         Some(match (self, number) {
             (Model, 7) | (Attribute, 6 | 11) => Graph,
             (Graph, 1) => Node,
@@ -59,7 +60,9 @@ impl Message {
             (Node, 5) => Attribute,
             (Value, 2) | (Attribute, 14 | 15) => Type,
             (Type, 1) => Shape,
-            (Model, 8 | 14) | (Shape, 2) | (Plain, 1) => Plain,
+            (Shape, 2) => Sizes,
+            // Which operators it is of, and words about it: a domain, a key.
+            (Model, 8 | 14) | (Sizes, 1) => Plain,
             _ => return None,
         })
     }
@@ -161,6 +164,16 @@ mod tests {
     fn whole_networks_pass() {
         assert_eq!(check(&channel_sum([0.5; 3])), Ok(()));
         assert_eq!(check(&[]), Ok(()));
+    }
+
+    #[test]
+    fn whose_operators_it_has_and_what_its_authors_say_are_texts() {
+        // Exporters name further operators, and say who made it: a domain and a version, a key and a value.
+        let domain = [&[8 << 3 | 2, 14, 0x0a, 10], b"ai.onnx.ml".as_slice(), &[0x10, 2]].concat();
+        let author = [&[14 << 3 | 2, 13, 0x0a, 6], b"author".as_slice(), &[0x12, 3], b"ada"].concat();
+        let network = [channel_sum([0.5; 3]), domain, author].concat();
+        assert_eq!(check(&network), Ok(()));
+        assert!(check(&network[..network.len() - 1]).unwrap_err().contains("the network is cut short"));
     }
 
     #[test]

@@ -61,8 +61,9 @@ impl Case {
         let before = files(&self.folder);
         let run = VERBS[self.verb].run;
         let ended = catch_unwind(AssertUnwindSafe(|| run(&self.folder, &mut self.random)));
-        self.clean(&before);
-        fs::write(&self.file, whole).unwrap();
+        if self.clean(&before) {
+            fs::write(&self.file, whole).unwrap();
+        }
         ended.is_ok()
     }
 
@@ -71,13 +72,14 @@ impl Case {
         fs::read(&self.file).unwrap()
     }
 
-    /// Removes what the verb wrote. A verb that changed other files of its place leaves it to be copied anew.
-    fn clean(&self, before: &[PathBuf]) {
+    /// Removes what the verb wrote. False: it changed other files of its place, too, which is copied anew for the next.
+    fn clean(&self, before: &[PathBuf]) -> bool {
         let _ = fs::remove_dir_all(self.folder.join("new"));
-        if VERBS[self.verb].writes || files(&self.folder) != before {
+        let is_kept = !VERBS[self.verb].writes && files(&self.folder) == before;
+        if !is_kept {
             let _ = fs::remove_dir_all(&self.folder);
-            fs::create_dir_all(self.file.parent().unwrap()).unwrap();
         }
+        is_kept
     }
 }
 

@@ -38,10 +38,9 @@ mod zod;
 use crate::tree::copy;
 use crate::verbs::label;
 use ralf::config::Config;
-use ralf::sensors::{CameraImage, ClassImage, DepthOutput};
+use ralf::sensors::{CameraImage, ClassImage, DepthImage, DepthOutput};
 use ralf_corrections::{Mark, ScanKey, Store, Who};
 use ralf_data::Settings;
-use ralf_data::result::Component;
 use ralf_data::views::{DepthStore, SegmentationStore};
 use std::fs;
 use std::path::Path;
@@ -123,14 +122,19 @@ fn make_run(recording: &Path, place: &Path) {
 /// A recording with a store of depth images beside it.
 fn make_depth(recording: &Path, place: &Path) {
     copy(recording, &place.join("recording"));
+    let recording = ralf_data::open(recording, None).unwrap();
     let store = DepthStore::create(&place.join("depth"), DepthOutput::Depth, "net").unwrap();
-    let depth = place.join("recording/sequences/00/camera_front/depth");
-    for image in 0..IMAGES {
-        let [sequence, camera] = ["00", "camera_front"].map(|name| Component::new(name).unwrap());
-        let to = store.file(&sequence, &camera, image);
-        fs::create_dir_all(to.parent().unwrap()).unwrap();
-        fs::copy(depth.join(format!("{image:06}.npy")), to).unwrap();
-    }
+    let images: Vec<_> = (0..IMAGES).map(|image| (0, image)).collect();
+    let ten_metres = |view: &CameraImage, _: f64| {
+        Ok(DepthImage {
+            width: view.width,
+            height: view.height,
+            values: vec![10.0; view.width * view.height],
+        })
+    };
+    let reader = recording.sequences[0].as_ref();
+    assert!(store.compute(reader, &images, &ten_metres, 1, &|| ()).unwrap().without.is_empty());
+    assert!(DepthStore::open(&place.join("depth")).is_ok());
 }
 
 /// A recording with a store of segmentations beside it.

@@ -3,7 +3,7 @@
 
 #![cfg(unix)]
 
-use ralf_fuzz::watch;
+use ralf_fuzz::{Case, all_cases, make_places, watch};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,4 +23,20 @@ fn no_damaged_file_makes_a_command_panic_hang_or_take_all_memory() {
         "{told}of {} cases (replay one: cargo run -p ralf-fuzz -- replay CASE)",
         watched.cases
     );
+}
+
+#[test]
+fn a_case_finds_its_place_whole_whatever_the_one_before_wrote_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let [places, scratch] = ["places", "scratch"].map(|name| folder.path().join(name));
+    make_places(&places);
+    let verbs = || all_cases(&places).into_iter().filter(|(_, file)| *file == 0);
+    for (verb, file) in verbs() {
+        let case = Case::chosen(verb, file, &places, &scratch);
+        let (name, whole) = (case.name(), case.whole());
+        // Readers write nowhere but in a folder that goes with them.
+        assert!(name.starts_with("read ") || case.run_with(&whole), "{name}");
+    }
+    verbs().for_each(|(verb, file)| drop(Case::chosen(verb, file, &places, &scratch)));
+    assert_eq!(all_cases(&scratch), all_cases(&places));
 }

@@ -13,6 +13,9 @@ use crate::text::{Align, Style, Typeface};
 use crate::values::ValueScale;
 use crate::vehicle::{RadarMount, VehicleOutline};
 
+/// No radar hears farther, m: what is said to lie beyond isn't what the view is fitted to.
+const FARTHEST_HEARD: f64 = 1000.0;
+
 /// What to draw of one scan. All places are x (forward) and y (left) in the vehicle frame, m.
 #[derive(Debug, Clone, Copy)]
 pub struct ScanPicture<'a> {
@@ -110,12 +113,14 @@ fn ground(picture: &ScanPicture<'_>, typeface: &Typeface, width: f32, unit: f32)
     Ok(panel)
 }
 
-/// The places that the view is fitted to: the detections, or the LiDAR returns where there are none.
+/// The places that the view is fitted to: the detections, or the LiDAR returns where there are none. Of few, none is
+/// left out as one of the farthest, but a damaged number must not make all others one dot.
 fn scattered<'a>(picture: &ScanPicture<'a>) -> Box<dyn Iterator<Item = [f64; 2]> + 'a> {
-    if picture.marks.iter().any(|mark| is_place(&mark.place())) {
-        Box::new(picture.marks.iter().map(Mark::place))
+    let is_near = |place: &[f64; 2]| is_place(place) && place[0].hypot(place[1]) <= FARTHEST_HEARD;
+    if picture.marks.iter().any(|mark| is_near(&mark.place())) {
+        Box::new(picture.marks.iter().map(Mark::place).filter(is_near))
     } else {
-        Box::new(picture.lidar.iter().copied())
+        Box::new(picture.lidar.iter().copied().filter(is_near))
     }
 }
 
@@ -236,6 +241,15 @@ mod tests {
         assert_eq!(canvas.rgb([800 + 5, 424]), PLAUSIBLE.rgb);
         assert_ne!(canvas.rgb([424 + 5, 800]), ARTIFACT.rgb);
         assert_eq!(canvas.rgb([424 + 3, 800 + 3]), ARTIFACT.rgb);
+    }
+
+    #[test]
+    fn a_damaged_number_does_not_make_all_others_one_dot() {
+        let wild = Mark { x: 9e6, ..AHEAD };
+        let marks = [AHEAD, LEFT, wild];
+        let seen =
+            |marks| Extent::Fit.window(scattered(&ScanPicture { marks, ..ScanPicture::default() }), &[]);
+        assert_eq!(seen(&marks[..]), seen(&marks[..2]));
     }
 
     #[test]

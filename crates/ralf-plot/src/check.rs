@@ -4,6 +4,7 @@
 use crate::canvas::Canvas;
 use crate::error::PlotError;
 use crate::palette::{ARTIFACT, FAINT_TEXT, FRAME, GRID, PLAUSIBLE, TEXT, TITLE};
+use crate::scale::{count, multiples, nice_at_most, number};
 use crate::text::{Align, Style, Typeface};
 
 /// One radar.
@@ -33,19 +34,26 @@ pub struct CheckPicture<'a> {
 const WIDTH: f32 = 1500.0;
 const MARGIN: f32 = 50.0;
 const HEAD: f32 = 70.0;
+/// So many radars are drawn at most: more would make a picture that takes gigabytes, and that nobody looks through.
+pub const MOST_CHECK_ROWS: usize = 100;
 /// Height of a row, and of the panel in it.
 const ROW: (f32, f32) = (230.0, 140.0);
 /// Left side and width of the three panels.
 const PANELS: [(f32, f32); 3] = [(MARGIN + 40.0, 640.0), (800.0, 290.0), (1160.0, 290.0)];
 
-/// Draws them, as PNG.
+/// Draws them, as PNG; of more than [`MOST_CHECK_ROWS`] the first, and how many are left out.
 pub fn check_picture(picture: &CheckPicture) -> Result<Vec<u8>, PlotError> {
-    let height = HEAD + ROW.0 * picture.rows.len().max(1) as f32 + MARGIN;
+    let (rows, others) = picture.rows.split_at(picture.rows.len().min(MOST_CHECK_ROWS));
+    let height = HEAD + ROW.0 * rows.len().max(1) as f32 + MARGIN;
     let mut canvas = Canvas::new([WIDTH as u32, height as u32])?;
     let typeface = Typeface::load()?;
     let title = Style { size: 26.0, bold: true, ink: TITLE };
     typeface.write(&mut canvas, [MARGIN, 44.0], Align::Left, picture.title, title);
-    for (i, row) in picture.rows.iter().enumerate() {
+    if !others.is_empty() {
+        let left_out = format!("{} more radars are not drawn", count(others.len()));
+        typeface.write(&mut canvas, [WIDTH - MARGIN, 44.0], Align::Right, &left_out, text());
+    }
+    for (i, row) in rows.iter().enumerate() {
         let mut sheet = Sheet { canvas: &mut canvas, typeface: &typeface, top: HEAD + ROW.0 * i as f32 };
         sheet.row(row);
     }
@@ -116,17 +124,27 @@ impl Sheet<'_> {
         }
         high[1] *= 1.05;
         let axes = Axes { left, top, width, low, high };
-        for share in [0.0, 0.5, 1.0] {
-            let [x, y] = [0, 1].map(|axis| low[axis] + share * (high[axis] - low[axis]));
+        self.numbers(&axes);
+        Some(axes)
+    }
+
+    /// Lines and numbers at round values, a few of each axis.
+    fn numbers(&mut self, axes: &Axes) {
+        let Axes { left, top, low, high, .. } = *axes;
+        let round = |axis: usize| {
+            let step = nice_at_most((high[axis] - low[axis]) / 2.0);
+            multiples(step, low[axis], high[axis])
+        };
+        for y in round(1) {
             let level = [[low[0], y], [high[0], y]].map(|place| axes.place(place));
             self.canvas.line(&level, 1.0, GRID);
-            let digits = usize::from(high[1] < 2.0) * 2;
-            let at = [left - 6.0, axes.place([low[0], y])[1] + 4.0];
-            self.typeface.write(self.canvas, at, Align::Right, &format!("{y:.digits$}"), faint());
-            let at = [axes.place([x, low[1]])[0], top + ROW.1 + 17.0];
-            self.typeface.write(self.canvas, at, Align::Middle, &format!("{x:.0}"), faint());
+            let at = [left - 6.0, level[0][1] + 4.0];
+            self.typeface.write(self.canvas, at, Align::Right, &number(y), faint());
         }
-        Some(axes)
+        for x in round(0) {
+            let at = [axes.place([x, low[1]])[0], top + ROW.1 + 17.0];
+            self.typeface.write(self.canvas, at, Align::Middle, &number(x), faint());
+        }
     }
 }
 
@@ -172,5 +190,15 @@ mod tests {
         let png = check_picture(&CheckPicture { title: "00", rows: &rows }).unwrap();
         assert!(png.starts_with(b"\x89PNG"));
         assert_eq!(png, check_picture(&CheckPicture { title: "00", rows: &rows }).unwrap());
+    }
+
+    #[test]
+    fn of_a_fleets_radars_the_first_are_drawn() {
+        let of = |rows: usize| {
+            let rows = vec![CheckRow { name: "front", ..CheckRow::default() }; rows];
+            let png = check_picture(&CheckPicture { title: "all", rows: &rows }).unwrap();
+            u32::from_be_bytes([png[20], png[21], png[22], png[23]])
+        };
+        assert_eq!([of(100), of(4000)], [HEAD + 100.0 * ROW.0 + MARGIN; 2].map(|height| height as u32));
     }
 }

@@ -38,7 +38,7 @@ mod viewport;
 
 pub use birds_eye::{ScanPicture, scan_picture};
 pub use camera::{CameraPicture, PixelDepth, ViewPicture, camera_picture};
-pub use check::{CheckPicture, CheckRow, check_picture};
+pub use check::{CheckPicture, CheckRow, MOST_CHECK_ROWS, check_picture};
 pub use error::PlotError;
 pub use extent::Extent;
 pub use marks::{Mark, MarkLabel, Marks};

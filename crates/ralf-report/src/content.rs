@@ -3,6 +3,7 @@
 use crate::classes::{self, Classes};
 use crate::evidence::{self, EvidenceColumn};
 use crate::findings::Findings;
+use crate::pictures::first_with_scans;
 use crate::reasons::{self, Weight};
 use crate::scored::{COLUMNS, Origin, Scored};
 use crate::told::{self, Told};
@@ -157,7 +158,7 @@ impl Content {
 /// What is counted over the detections of one sequence.
 struct Counted {
     balance: Balance,
-    /// The scans of the first radar with uncertain detections ([`Certainty::is_uncertain`]), those first that have the
+    /// The scans of [`first_radar`] with uncertain detections ([`Certainty::is_uncertain`]), those first that have the
     /// largest share of them.
     uncertain: Vec<usize>,
 }
@@ -211,7 +212,7 @@ impl DrawnSequence {
         // One without labels would look as if it held no detections.
         let not_labelled = labelled.record.not_labelled.iter().filter(|scan| scan.radar == radar);
         let not_labelled: BTreeSet<usize> = not_labelled.map(|scan| scan.scan).collect();
-        let count = sequence.times.radars.first().map_or(0, Vec::len);
+        let count = first_with_scans(sequence).map_or(0, |radar| sequence.times.radars[radar].len());
         let with_labels: Vec<usize> = (0..count).filter(|scan| !not_labelled.contains(scan)).collect();
         let mut scans = Vec::new();
         for (scan, uncertain) in choose(&with_labels, wanted, uncertain) {
@@ -231,7 +232,8 @@ impl DrawnSequence {
 
 /// The radar that numbers the scans that are drawn.
 fn first_radar(reader: &dyn SequenceReader) -> String {
-    reader.sequence().rig.radars.first().map_or(String::new(), |radar| radar.name.clone())
+    let sequence = reader.sequence();
+    first_with_scans(sequence).map_or(String::new(), |radar| sequence.rig.radars[radar].name.clone())
 }
 
 /// The share of a scan's detections that are uncertain.

@@ -39,15 +39,22 @@ pub struct Pictures<'a> {
     pub extent: Extent,
 }
 
+/// The radar that numbers the scans of a sequence where none is asked for: the first that has any.
+pub(crate) fn first_with_scans(sequence: &Sequence) -> Option<usize> {
+    sequence.times.radars.iter().position(|times| !times.is_empty())
+}
+
 impl Pictures<'_> {
     fn sequence(&self) -> &Sequence {
         self.reader.sequence()
     }
 
-    /// Index of the radar asked for, or of the first.
+    /// Index of the radar asked for, or of the first that has scans.
     fn first_radar(&self) -> Result<usize, ReportError> {
         let radars = &self.sequence().rig.radars;
-        radars.iter().position(|radar| self.shows(&radar.name)).ok_or_else(|| {
+        let asked = || radars.iter().position(|radar| self.shows(&radar.name));
+        let first = if self.radar.is_none() { first_with_scans(self.sequence()) } else { None };
+        first.or_else(asked).ok_or_else(|| {
             let names: Vec<_> = radars.iter().map(|radar| radar.name.as_str()).collect();
             let expected = one_of("radar", &names);
             ReportError::Unknown { expected, found: format!("{:?}", self.radar.unwrap_or_default()) }

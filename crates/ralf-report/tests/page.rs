@@ -301,6 +301,20 @@ fn as_many_scans_are_drawn_as_asked_for() {
     }
 }
 
+/// Scans are numbered by the first radar that has any: one that was switched off takes no picture from the others.
+#[test]
+fn scans_are_drawn_though_the_first_radar_has_none() {
+    let tiny = Tiny::new();
+    let sequence = tiny.dataset().join("sequences/00");
+    let sensors = fs::read_to_string(sequence.join("sequence.toml")).unwrap();
+    let (head, radar) = sensors.split_once("[[radar]]").unwrap();
+    let off = radar.replace("\"front\"", "\"off\"");
+    tiny.put("sequence.toml", format!("{head}[[radar]]{off}[[radar]]{radar}").as_bytes());
+    tiny.put("off/timestamps.txt", b"");
+    let page = page(&tiny.dataset(), &tiny.out(), 2);
+    assert_eq!(page.matches("<figure class=\"scan\"").count(), 2);
+}
+
 #[test]
 fn results_that_are_missing_are_named() {
     let tiny = Tiny::new();

@@ -1,7 +1,7 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{DepthModelArgs, all_images, fill_depth, store_folder, without_links};
+use crate::network::{DepthModelArgs, all_images, fill_depth, named_elsewhere, store_folder, without_links};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::run_summary::unusable;
@@ -92,8 +92,8 @@ impl DepthArgs {
     fn store(&self, recording: &Recording, model: &OnnxModel) -> anyhow::Result<DepthStore> {
         let output = model.output();
         let folder = store_folder(self.output.as_deref(), recording)?;
-        let of_recording = if self.output.is_none() { recording.sequences.as_slice() } else { &[] };
-        for reader in of_recording {
+        let is_own = named_elsewhere(self.output.as_deref(), recording).is_none();
+        for reader in recording.sequences.iter().filter(|_| is_own) {
             let declared = reader.sequence().depth_output;
             let file = sensors_file(&recording.path, &reader.sequence().name);
             ensure!(

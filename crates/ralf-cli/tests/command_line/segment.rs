@@ -1,6 +1,6 @@
 //! `ralf segment`, and labels with what it stored.
 
-use crate::support::{Dataset, Ran, Shape, network, program, ralf, schema, tree};
+use crate::support::{Dataset, Ran, Shape, network, nuscenes, program, ralf, schema, tree};
 use std::fs;
 use std::path::Path;
 
@@ -49,6 +49,23 @@ fn images_are_segmented_once_and_tell_where_classes_are_from() {
     plan.exits(0).says([lacking]);
     // Without -o they lie in the dataset itself, and labelling finds them there.
     ralf(["segment", &dataset.path, "--model", &model]).exits(0);
+    assert!(dataset.file("camera_front/segmentation/000002.png").exists());
+}
+
+/// With `sequences` in it, a recording of another format would be taken for one of RALF's own layout.
+#[test]
+fn a_recording_of_another_format_takes_no_stores() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let model = colours(&dataset);
+    let other = dataset.beside("nuscenes");
+    nuscenes(Path::new(&other));
+    let refused = ralf(["segment", &dataset.path, "--model", &model, "-o", &other]);
+    refused.exits(1).says([&other, "found a recording of the format nuscenes"]);
+    let own = ralf(["segment", &other, "--model", &model, "-o", &other]);
+    own.exits(2).says(["expected -o FOLDER, for a recording of the format nuscenes is only read"]);
+    assert!(!Path::new(&other).join("sequences").exists());
+    // What is the recording's own place is so by name, too.
+    ralf(["segment", &dataset.path, "--model", &model, "-o", &dataset.path]).exits(0);
     assert!(dataset.file("camera_front/segmentation/000002.png").exists());
 }
 

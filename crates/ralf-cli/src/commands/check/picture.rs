@@ -1,7 +1,7 @@
 //! The picture of a check.
 
 use ralf_check::{RadarFigures, SequenceCheck, Verdict};
-use ralf_plot::{CheckPicture, CheckRow, PlotError, check_picture};
+use ralf_plot::{CheckPicture, CheckRow, MOST_CHECK_ROWS, PlotError, check_picture};
 
 /// What a row shows, owned.
 struct Row {
@@ -12,8 +12,12 @@ struct Row {
 
 /// All radars of all sequences, as PNG.
 pub(crate) fn png(checks: &[SequenceCheck]) -> Result<Vec<u8>, PlotError> {
-    let figures: Vec<(&SequenceCheck, &RadarFigures)> =
+    let mut figures: Vec<(&SequenceCheck, &RadarFigures)> =
         checks.iter().flat_map(|check| check.figures.iter().map(move |figures| (check, figures))).collect();
+    // Of too many to draw, those that something speaks against come first.
+    if figures.len() > MOST_CHECK_ROWS {
+        figures.sort_by_key(|(check, figures)| !check.doubts().any(|doubt| doubt.subject == figures.name));
+    }
     let owned: Vec<Row> = figures.iter().map(|(check, figures)| row(check, figures)).collect();
     let rows: Vec<CheckRow> = owned
         .iter()
