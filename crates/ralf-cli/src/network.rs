@@ -91,7 +91,10 @@ pub(crate) fn store_folder<'a>(
 
 /// The folder that is named, where that isn't the recording's own.
 pub(crate) fn named_elsewhere<'a>(named: Option<&'a Path>, recording: &Recording) -> Option<&'a Path> {
-    named.filter(|folder| *folder != recording.path)
+    let real = |path: &Path| path.canonicalize().ok();
+    named.filter(|folder| {
+        *folder != recording.path && real(folder).is_none_or(|it| Some(it) != real(&recording.path))
+    })
 }
 
 /// The folder of a recording that can keep what a network says of its images: one of the own layout, for others are

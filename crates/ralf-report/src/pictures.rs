@@ -5,7 +5,7 @@ use crate::ReportError;
 use crate::choice::{one_below, one_of};
 use ralf::sensors::{Radar, Sequence, is_return};
 use ralf::space::sync;
-use ralf::space::{Point, Transform, Vector};
+use ralf::space::{Point, Transform, Vector, placed};
 use ralf_data::result::{Group, Kind, PlausibilityReader, RadarScanKey, Table};
 use ralf_data::{DataError, ScanIndex, SequenceReader};
 use ralf_plot::{
@@ -274,7 +274,7 @@ impl Pictures<'_> {
         let every = scan.points.len().div_ceil(limit).max(1);
         let returns = scan.points.iter().step_by(every).filter(|point| is_return(point));
         points.extend(returns.map(|point| {
-            let p = to_from_lidar * Point::from(point.map(f64::from));
+            let p = placed(&to_from_lidar, point);
             [p.x, p.y]
         }));
         Ok(())

@@ -19,11 +19,13 @@ pub struct Fold {
 /// Whether each of the named sequences can be left out, before anything is searched for.
 ///
 /// # Errors
-/// Fewer than two of them; or one without which there are no plausible detections, or no artifacts.
+/// Fewer than two of them; all of one class; or one without which there are no plausible detections, or no artifacts.
 pub fn check_folds(search: &Search, sequences: &[(String, MismatchTable)]) -> Result<(), TuneError> {
     if sequences.len() < 2 {
         return Err(TuneError::TooFewSequences(sequences.len()));
     }
+    let all: Vec<&MismatchTable> = sequences.iter().map(|(_, table)| table).collect();
+    search.check(&all)?;
     for (name, _) in sequences {
         search.check(&others(sequences, name)).map_err(|error| match error {
             TuneError::OneClass(missing) => TuneError::OneClassWithout { left_out: name.clone(), missing },

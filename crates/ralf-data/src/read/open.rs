@@ -177,6 +177,20 @@ pub(crate) fn recognised(path: &Path) -> Option<(&'static str, bool)> {
     Some((format.name, format.knows_truth))
 }
 
+/// The format of a recording that isn't in the own layout, whatever else the folder holds. Not only ROS writes a file
+/// `metadata.yaml`.
+pub(crate) fn recognised_as_other(path: &Path) -> Option<&'static str> {
+    let others = FORMATS.iter().filter(|format| format.name != layout::NAME && (format.recognises)(path));
+    let mut names = others.map(|format| format.name);
+    names.find(|name| *name != ros::NAME || path.is_file() || is_bag(path))
+}
+
+/// Whether a folder's `metadata.yaml` is that of a ROS 2 bag.
+fn is_bag(folder: &Path) -> bool {
+    let text = fs::read_to_string(folder.join("metadata.yaml"));
+    text.is_ok_and(|text| text.contains("rosbag2_bagfile_information"))
+}
+
 /// Whether a folder or file is recognised as this format, whatever else it may be taken for.
 pub(crate) fn is_recognised_as(path: &Path, format: &str) -> bool {
     FORMATS.iter().any(|known| known.name == format && (known.recognises)(path))

@@ -2,13 +2,12 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::open::recognised;
-use crate::read::{layout, refuse_own_places, refuse_to_write_into, ros};
+use crate::read::open::recognised_as_other;
+use crate::read::{refuse_own_places, refuse_to_write_into};
 use crate::result::{OutFolder, is_under_way};
 use crate::tree::{LABELS, PLAN, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Refuses a part of a recording, any other recording, a file in the place of the folder or of the sequences' own, what
@@ -55,19 +54,7 @@ fn refuse_recording(out: &Path) -> Result<(), DataError> {
     if out.join(RECORD).is_file() || is_under_way(out)? {
         return Ok(());
     }
-    match recognised(out) {
-        // What has `sequences` looks like one in the own layout. Not only ROS writes a file `metadata.yaml`.
-        Some((format, _)) if format != layout::NAME && (format != ros::NAME || is_bag(out)) => {
-            refuse(format!("a recording of the format {format}"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Whether a folder's `metadata.yaml` is that of a ROS 2 bag.
-fn is_bag(out: &Path) -> bool {
-    let text = fs::read_to_string(out.join("metadata.yaml"));
-    text.is_ok_and(|text| text.contains("rosbag2_bagfile_information"))
+    recognised_as_other(out).map_or(Ok(()), |format| refuse(format!("a recording of the format {format}")))
 }
 
 /// What the record of every version of the program has.

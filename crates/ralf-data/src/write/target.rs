@@ -2,8 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::layout;
-use crate::read::open::recognised;
+use crate::read::open::recognised_as_other;
 use crate::read::outside::refuse_own_places;
 use crate::tree::MARKS_OF_LABELS;
 use std::path::Path;
@@ -22,8 +21,6 @@ pub(super) fn refuse_other_folder(dataset: &Path) -> Result<(), DataError> {
             return refuse(format!("labels, with {mark}"));
         }
     }
-    match recognised(dataset) {
-        Some((format, _)) if format != layout::NAME => refuse(format!("a recording of the format {format}")),
-        _ => Ok(()),
-    }
+    recognised_as_other(dataset)
+        .map_or(Ok(()), |format| refuse(format!("a recording of the format {format}")))
 }

@@ -7,7 +7,7 @@ use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::{SequenceLabels, Stamp};
 use ralf::scene::{FrameWindow, LidarView};
 use ralf::sensors::is_return;
-use ralf::space::Point;
+use ralf::space::{Point, placed};
 use ralf_data::SequenceReader;
 use serde::Deserialize;
 use serde_json::Map;
@@ -110,9 +110,10 @@ pub(super) fn seen(
     let cloud = reader.lidar_scan(lidar, scan)?;
     let vehicle_from_lidar = &labels.rig.lidars[lidar].vehicle_from_lidar;
     let view = FrameWindow::new(reader, &labels.rig, &labels.settings).lidar_view(t_ns)?;
+    let height = view.as_ref().and_then(height_in);
     let of_ray = |(row, point): (usize, &[f32; 3])| {
-        let place = is_return(point).then(|| vehicle_from_lidar * Point::from(point.map(f64::from)))?;
-        let height = view.as_ref().and_then(|view| height(view, &place));
+        let place = is_return(point).then(|| placed(vehicle_from_lidar, point))?;
+        let height = height.as_ref().map(|height| height(&place));
         let ground = height.is_some_and(|height| height < labels.settings.ground.lidar_margin);
         Some(Seen { place, intensity: cloud.intensity.get(row).copied().unwrap_or(f32::NAN), ground })
     };
@@ -132,8 +133,8 @@ pub(super) fn points(found: &[Option<Seen>], mut table: Table) -> Table {
     table
 }
 
-/// Height above the ground, m; `None` where there is no ground.
-fn height(view: &LidarView, p: &Point) -> Option<f64> {
+/// The height of a place above the ground, m; `None` where there is no ground.
+fn height_in(view: &LidarView) -> Option<impl Fn(&Point) -> f64> {
     let moment_from_vehicle = view.vehicle_from_moment.inverse();
-    view.moment.ground().map(|ground| ground.height(&(moment_from_vehicle * p)))
+    view.moment.ground().map(|ground| move |p: &Point| ground.height(&(moment_from_vehicle * p)))
 }

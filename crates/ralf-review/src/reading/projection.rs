@@ -4,7 +4,7 @@ use crate::app::{App, ScanPlace, measurement};
 use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::SequenceLabels;
 use ralf::sensors::{Camera, is_return};
-use ralf::space::{EgoMotion, Point};
+use ralf::space::{EgoMotion, Point, placed};
 use ralf_data::{ScanIndex, SequenceReader};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -104,7 +104,7 @@ pub(crate) fn lidar_projection(app: &App, name: ImageName, asked: &LidarProjecti
     let returns = points.iter().filter(|point| is_return(point));
     let mut seen: Vec<([f64; 3], f32)> = returns
         .filter_map(|point| {
-            let place = vehicle_from_lidar * Point::from(point.map(f64::from));
+            let place = placed(vehicle_from_lidar, point);
             Some((sees(&place)?, place.z as f32))
         })
         .collect();

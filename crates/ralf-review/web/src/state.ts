@@ -208,6 +208,12 @@ export function lookedAt({ thing, disputed, opinion, opinionAt }: Readonly<State
   return thing ?? disputed ?? opinion?.changes[opinionAt] ?? null;
 }
 
+/** Whether a scan is the one under review, and there: one that was asked for may still be on its way. */
+export function isOnScreen({ cloud, loading }: Readonly<State>, id: ScanId): boolean {
+  const scan = cloud.scans.at(0);
+  return !loading && scan !== undefined && scan.radar === id.radar && scan.scan === id.scan;
+}
+
 /** Whose places are on screen. */
 export function homeOf({ recording, sequence }: Readonly<State>): Home {
   return { dataset: recording.dataset, sequence };

@@ -169,4 +169,6 @@ fn each_fold_is_tuned_without_the_sequence_it_is_judged_on() {
     let mixed_alone = [sequences[0].clone(), ("01".to_owned(), of_one_class)];
     let refused = TuneError::OneClassWithout { left_out: "00".to_owned(), missing: "artifacts" };
     assert_eq!(check_folds(&search, &mixed_alone), Err(refused));
+    let of_one_class = [mixed_alone[1].clone(), mixed_alone[1].clone()];
+    assert_eq!(check_folds(&search, &of_one_class), Err(TuneError::OneClass("artifacts")));
 }

@@ -8,7 +8,7 @@ use super::standing::standing_points;
 use super::terrain::{Patch, patches};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
-use crate::space::{NeighborIndex, Point, Transform, Vector};
+use crate::space::{NeighborIndex, Point, Transform, Vector, placed};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -284,7 +284,7 @@ fn moved_return(moment_from_lidar: &Transform, point: &[f32; 3]) -> [f32; 3] {
     if !is_return(point) {
         return [f32::NAN; 3];
     }
-    let p = moment_from_lidar * Point::from(point.map(f64::from));
+    let p = placed(moment_from_lidar, point);
     [p.x as f32, p.y as f32, p.z as f32]
 }
 

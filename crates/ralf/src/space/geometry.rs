@@ -10,6 +10,11 @@ pub type Point = Point3<f64>;
 /// A displacement, in the frame that its name or documentation gives, m.
 pub type Vector = Vector3<f64>;
 
+/// Where a point that a sensor measured lies in the frame that the transform leads to, m.
+pub fn placed(there_from_sensor: &Transform, point: &[f32; 3]) -> Point {
+    there_from_sensor * Point::from(point.map(f64::from))
+}
+
 /// Spherical coordinates in the frame of the sensor that measured them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spherical {

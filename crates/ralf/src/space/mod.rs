@@ -19,7 +19,7 @@ mod neighbors;
 mod recent;
 pub mod sync;
 
-pub use geometry::{Point, Spherical, Transform, Vector, check_rigid, transform_from_parts};
+pub use geometry::{Point, Spherical, Transform, Vector, check_rigid, placed, transform_from_parts};
 pub use going_on::going_on;
 pub(crate) use many_transforms::{LANES, ManyTransforms};
 pub use motion::{EgoMotion, OdometrySample, PoseSample};

@@ -18,6 +18,8 @@ const LEAST_SHOWN = 24;
 export class Kinding {
   /** Kinds that were asked about since the sequence was opened: what is left of them is right for most. */
   private passed = new Set<string>();
+  /** The one that was asked for last and did not come on screen. */
+  private missed: string | null = null;
   private readonly lookedIn: LookedIn;
 
   constructor(
@@ -116,12 +118,18 @@ export class Kinding {
       const isHere = kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
       if (!isHere) await this.navigation.wholeSequence(kind);
     });
-    const { cloud, eligible } = store.state;
-    // Somebody went elsewhere meanwhile, or the scans can't be read.
-    if (sequence !== store.state.sequence || !kind.points.some((part) => findScan(cloud, part) >= 0)) return;
+    if (sequence !== store.state.sequence) return;
+    const { cloud, eligible, loading } = store.state;
+    if (loading || !kind.points.some((part) => findScan(cloud, part) >= 0)) return this.miss(kind);
     const selection = intersection(maskOf(cloud, within(kind)), eligible);
     this.lookedIn.here();
     store.set({ ...NOTHING_LOOKED_AT, kind, selection, armed: undefined, focus: around(cloud, selection) });
+  }
+
+  /** It isn't on screen: somebody went elsewhere meanwhile, or, the second time, its scans can't be read. */
+  private miss({ kind }: Kind): void {
+    if (this.missed === kind) this.passed.add(kind);
+    this.missed = kind;
   }
 
   /** Whoever looks at other scans doesn't see any more what is spared, and what isn't. */

@@ -11,14 +11,17 @@ export class LookedIn {
 
   constructor(
     private readonly store: Store<State>,
-    left: () => void,
+    private readonly left: () => void,
   ) {
     store.watch(
       ({ cloud }) => [cloud],
-      (cloud) => {
-        if (this.moves === 0 && scansOf(cloud) !== this.scans) left();
-      },
+      () => this.leaveIfElsewhere(),
     );
+  }
+
+  /** Whoever has put other scans on screen than it is looked at in has left it. */
+  leaveIfElsewhere(): void {
+    if (this.moves === 0 && scansOf(this.store.state.cloud) !== this.scans) this.left();
   }
 
   /** Puts other scans on screen for it, which is not leaving it. */

@@ -39,7 +39,7 @@ export class Moment {
       const before = store.state.cameras;
       const cameras = this.camerasOf(cloud).map((camera) => withKnownPicture(camera, before));
       store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
-      // Nobody waits for pictures: what is looked at is selected before anything else can be chosen.
+      // They are not waited for here: what is looked at is selected before anything else can be chosen.
       this.pictures = Promise.all(cameras.map((camera) => this.imagery.complete(cloud, camera))).then(
         () => undefined,
         (error: unknown) => complain(this.world, error),

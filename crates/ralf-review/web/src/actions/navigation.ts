@@ -4,7 +4,7 @@ import type { ScanId } from "../api/types.js";
 import { buildCloud } from "../data/cloud.js";
 import { sameScan } from "../data/scan.js";
 import { listed, neighbour, nextNeedy, type QueueView } from "../queue/queue.js";
-import { MOST_ACCUMULATED } from "../state.js";
+import { isOnScreen, MOST_ACCUMULATED } from "../state.js";
 import { type Address, addressText } from "./address.js";
 import type { Moment } from "./moment.js";
 import { complain, tell, type World } from "./world.js";
@@ -160,10 +160,10 @@ export class Navigation {
   /** All scans around one (a hundred of each radar before and after it) on screen, and strokes that may change them. */
   async wholeSequence(at: ScanId): Promise<void> {
     const { store } = this.world;
-    const { accumulate, scope, current, cloud } = store.state;
+    const { accumulate, scope } = store.state;
     if (scope !== "shown") store.set({ scope: "shown" });
     if (accumulate !== MOST_ACCUMULATED) store.set({ accumulate: MOST_ACCUMULATED });
-    const there = accumulate === MOST_ACCUMULATED && sameScan(current, at) && cloud.count > 0;
+    const there = accumulate === MOST_ACCUMULATED && isOnScreen(store.state, at);
     if (!there) await this.goTo(at);
   }
 

@@ -6,7 +6,7 @@ import { countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import { counted } from "../format.js";
 import { countOf, intersection } from "../selection/mask.js";
-import { NOTHING_LOOKED_AT } from "../state.js";
+import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
@@ -112,8 +112,9 @@ export class Opining {
       const at = still.changes.findIndex(({ thing }) => thing === change.thing);
       store.set({ opinion: still, opinionAt: at });
       await this.lookedIn.elsewhere(() => this.navigation.wholeSequence(change));
-      // Somebody went on meanwhile, or the scan can't be read.
-      if (sequence !== store.state.sequence || !sameScan(store.state.current, change)) return;
+      if (sequence !== store.state.sequence) return;
+      // Somebody went on meanwhile, or elsewhere, or the scan can't be read.
+      if (!isOnScreen(store.state, change)) return this.lookedIn.leaveIfElsewhere();
       this.select();
     }
     lookAt(this.world, change);

@@ -17,6 +17,8 @@ const BRUSHES = [6, 9, 13, 18, 26, 38, 54, 80] as const;
 export class Selecting {
   /** The tool by which the selection came about; the server notes it with the stroke. */
   private lastTool: string = "click";
+  /** True from an answer until the thing after it is on screen. */
+  private answering = false;
 
   constructor(
     private readonly world: World,
@@ -61,13 +63,20 @@ export class Selecting {
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     // A key that is pressed twice, or too early for the next thing, begins no painting.
-    else if (thing === null && !this.things.coming) store.set({ armed: armed === choice ? undefined : choice });
+    else if (!this.answering && !this.things.coming) store.set({ armed: armed === choice ? undefined : choice });
   }
 
   /** What a person says of the thing that wants an answer; then to the next one. */
   private async answer(choice: Choice): Promise<void> {
-    await this.correcting.apply(choice, "thing");
-    if (this.world.store.state.outbox.kind === "idle") await this.things.next();
+    this.answering = true;
+    try {
+      await this.correcting.apply(choice, "thing");
+      const { outbox, selection } = this.world.store.state;
+      // Whoever has begun something else meanwhile goes on with that.
+      if (outbox.kind === "idle" && countOf(selection) === 0) await this.things.next();
+    } finally {
+      this.answering = false;
+    }
   }
 
   /** Whether what is selected is what a proposal would change: that is accepted or dropped, never all one class. */

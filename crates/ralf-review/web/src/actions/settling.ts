@@ -4,10 +4,9 @@ import type { BaseRevision, Disagreement } from "../api/types.js";
 import { everything } from "../data/filter.js";
 import type { Choice } from "../data/labels.js";
 import { countOfPoints, keptPoints } from "../data/opinion.js";
-import { sameScan } from "../data/scan.js";
 import { keyOf, nextDisagreement, outlookOf } from "../data/team.js";
 import { counted } from "../format.js";
-import { NOTHING_LOOKED_AT } from "../state.js";
+import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
@@ -124,7 +123,7 @@ export class Settling {
     store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     await this.navigation.wholeSequence(disagreement);
     // Somebody went elsewhere meanwhile, or the scan can't be read.
-    if (sequence !== store.state.sequence || !sameScan(store.state.current, disagreement)) return;
+    if (sequence !== store.state.sequence || !isOnScreen(store.state, disagreement)) return;
     this.lookedIn.here();
     this.base = base;
     store.set({ ...NOTHING_LOOKED_AT, disputed: disagreement, armed: undefined });

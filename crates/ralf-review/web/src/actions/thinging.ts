@@ -4,9 +4,8 @@ import type { DoubtfulThing } from "../api/types.js";
 import { maskOf } from "../data/cloud.js";
 import { nextThing, placeOf, type Place, Things, wholeThings } from "../data/things.js";
 import { movePlace } from "../data/transform.js";
-import { sameScan } from "../data/scan.js";
-import { intersection } from "../selection/mask.js";
-import { NOTHING_LOOKED_AT } from "../state.js";
+import { countOf, intersection } from "../selection/mask.js";
+import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
 import { complain, tell, type World } from "./world.js";
@@ -61,13 +60,17 @@ export class Thinging {
     const { store } = this.world;
     const { sequence } = store.state;
     this.underWay += 1;
+    // Until it is on screen no key answers it with what is selected of another.
+    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     try {
       if (this.things === null) await this.load();
       else await this.hear(sequence);
       if (sequence !== store.state.sequence) return;
+      // Nobody's work is taken over: what was begun meanwhile comes first.
+      if (countOf(store.state.selection) > 0)
+        return tell(this.world, "The next thing is known, but you are at something: Shift+N shows it after that.");
       const next = nextThing(this.doubtful, this.seen);
       if (next !== null) return await this.show(next);
-      store.set({ thing: null });
       tell(this.world, "Every doubtful thing of this sequence was looked at.");
     } catch (error) {
       complain(this.world, error);
@@ -102,18 +105,19 @@ export class Thinging {
     const { store } = this.world;
     const { sequence } = store.state;
     const things = await this.load();
-    // Until it is on screen no key answers it with what is selected of another.
-    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
-    await this.navigation.wholeSequence(thing);
-    // Somebody went elsewhere meanwhile, where these numbers mean nothing, or the scan can't be read.
-    if (sequence !== store.state.sequence || !sameScan(store.state.current, thing)) return;
+    // Once: a scan that can't be read must not be asked for again and again.
     const at = placeOf(thing);
     if (at !== null) this.seen.push(at);
+    await this.navigation.wholeSequence(thing);
+    // Somebody went elsewhere meanwhile, where these numbers mean nothing, or the scan can't be read.
+    if (sequence !== store.state.sequence || !isOnScreen(store.state, thing)) return;
     lookAt(this.world, thing);
     // Whoever paints goes on painting there.
     if (store.state.armed !== undefined) return;
     const { cloud, eligible } = store.state;
     const selection = intersection(maskOf(cloud, things.members(thing.thing)), eligible);
+    if (countOf(selection) === 0)
+      return tell(this.world, "The filter hides all of the next thing: 0 shows everything, Shift+N goes on.");
     store.set({ ...NOTHING_LOOKED_AT, thing, selection, tool: "thing" });
   }
 

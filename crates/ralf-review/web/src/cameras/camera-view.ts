@@ -29,6 +29,7 @@ export class CameraView {
   private gesture: Gesture | null = null;
   private pointer: Point | null = null;
   private places: Float32Array | null = null;
+  private seen: Float32Array | null = null;
   private asked = 0;
   private readonly lidar = new LidarLayer();
   private aimed: Uint8Array | null = null;
@@ -77,22 +78,22 @@ export class CameraView {
     this.aimed = aimed;
     const other = camera?.info.name !== this.camera?.info.name;
     this.camera = camera;
-    this.places = null;
     this.element.setAttribute("aria-label", camera === null ? "No camera" : `Camera ${camera.info.name}`);
     this.element.classList.toggle("failed", camera?.failed === true);
     say(this.caption, camera === null ? "" : captionOf(camera));
     if (other) this.fit();
-    this.invalidate();
+    else this.invalidate();
   }
 
   /** Shows the whole image. */
   fit(): void {
+    this.surface.cancel();
     this.touched = false;
     this.invalidate();
   }
 
   private invalidate(): void {
-    this.places = null;
+    [this.places, this.seen] = [null, null];
     if (this.asked !== 0) return;
     this.asked = requestAnimationFrame(() => {
       this.asked = 0;
@@ -112,6 +113,7 @@ export class CameraView {
   }
 
   private look(frame: Frame): void {
+    this.surface.cancel();
     this.frame = frame;
     this.touched = true;
     this.invalidate();
@@ -124,7 +126,8 @@ export class CameraView {
 
   /** The places of what can be seen: an image that is zoomed is larger than the element. */
   private inSight(): Float32Array {
-    return within(this.placed(), ...this.size);
+    this.seen ??= within(this.placed(), ...this.size);
+    return this.seen;
   }
 
   private draw(): void {

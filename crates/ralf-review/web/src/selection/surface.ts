@@ -42,7 +42,7 @@ export class Surface {
     element.addEventListener("pointercancel", () => this.giveUp());
     // What was drawn was drawn on another picture.
     store.watch(
-      ({ tool, cloud, focus }) => [tool, cloud.positions, focus],
+      ({ tool, cloud, mode }) => [tool, cloud.positions, mode],
       () => this.cancel(),
     );
   }

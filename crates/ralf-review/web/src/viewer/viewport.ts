@@ -164,12 +164,15 @@ export class Viewport {
   }
 
   private aim(rig: Rig): void {
+    // What is being drawn lies on the picture as it was.
+    this.surface.cancel();
     this.view.rig = rig;
     this.changed();
     this.tellView();
   }
 
   private resize(): void {
+    this.surface.cancel();
     this.view.resize(this.element.clientWidth, this.element.clientHeight);
     this.changed();
     this.tellView();

@@ -65,7 +65,7 @@ class Table {
     const correct = { answerKind, free: () => Promise.resolve(true) } as unknown as Correcting;
     this.kinding = new Kinding(world, { wholeSequence } as unknown as Navigation, correct);
     this.selecting = new Selecting(world, correct, {} as Thinging, {} as Settling, this.kinding);
-    store.set({ sequence: "00", current: HERE, cloud: ALONE, scope: "shown" });
+    store.set({ sequence: "00", current: HERE, loading: false, cloud: ALONE, scope: "shown" });
   }
 
   picture(cloud: Cloud): void {
@@ -174,11 +174,17 @@ test("what was spared of a kind can be added again, and nothing beyond it, which
   assert.deepEqual(said[0].points, FIRST.points);
 });
 
-test("a kind that somebody doesn't wait for is not looked at elsewhere", async () => {
+test("a kind that somebody doesn't wait for is not looked at elsewhere, and one that can't be read is passed over", async () => {
   const table = new Table();
+  const show = table.picture.bind(table);
   table.picture = (): void => table.store.set({ cloud: buildCloud([made("rear", 3, { x: [1] })]) });
   await table.kinding.next();
-  assert.equal(table.store.state.kind, null);
+  await table.kinding.next();
+  const told = (): string | undefined => table.store.state.kind?.kind;
+  assert.equal(told(), undefined);
+  table.picture = show;
+  await table.kinding.next();
+  assert.equal(told(), SECOND.kind);
 });
 
 test("while a kind is looked at nothing is flipped by mistake", async () => {

@@ -1,12 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Moment } from "../../src/actions/moment.js";
+import { Moment } from "../../src/actions/moment.js";
 import { Navigation } from "../../src/actions/navigation.js";
 import type { World } from "../../src/actions/world.js";
-import type { ScanId } from "../../src/api/types.js";
-import { initialState, type State } from "../../src/state.js";
+import { buildCloud } from "../../src/data/cloud.js";
+import { initialState, isOnScreen, type State } from "../../src/state.js";
 import { Store } from "../../src/store.js";
 import { recordingOf, sequence } from "./recordings.js";
+import { made } from "./scans.js";
 
 test("a sequence whose answer comes after a later choice doesn't take its place", async () => {
   const store = new Store<State>(initialState(recordingOf([sequence("00", "ada"), sequence("01", "ada")]), "ada"));
@@ -27,18 +28,43 @@ test("a sequence whose answer comes after a later choice doesn't take its place"
   assert.equal(forgotten, 1, "of a sequence that was not on screen nobody told what others changed");
 });
 
-test("a scan is there before its cameras' pictures: what is selected then doesn't take the place of a later choice", async () => {
-  const store = new Store<State>(initialState(recordingOf([sequence("00", "ada")]), "ada"));
-  const shown: ScanId[] = [];
-  const show = (id: ScanId): Promise<void> => {
-    shown.push(id);
-    store.set({ current: id });
-    return Promise.resolve();
+/** A page with a scan that a camera sees whose image never comes. */
+function beside(camera: string): { readonly store: Store<State>; readonly go: Navigation } {
+  const cameras = [{ name: camera, width: 40, height: 20, images: ["0"] }];
+  const recording = recordingOf([{ ...sequence("00", "ada"), cameras }]);
+  const store = new Store<State>({ ...initialState(recording, "ada"), sequence: "00" });
+  const { table, ...scan } = made("front", 4, { x: [1, 2] });
+  const seen = {
+    ...scan,
+    table: { ...table, header: { ...table.header, cameras: [{ name: camera, image: 0, t_ns: "0" }] } },
   };
-  const moment = { show, pictured: () => new Promise(() => undefined) } as unknown as Moment;
+  const never = (): Promise<never> => new Promise(() => undefined);
+  const loader = {
+    around: () => Promise.resolve([{ radar: "front", scan: 4 }]),
+    scan: () => Promise.resolve(seen),
+    lidar: () => Promise.resolve(null),
+    cloud: () => Promise.resolve(buildCloud([seen])),
+    image: never,
+    projections: never,
+  };
+  const world = { store, loader } as unknown as World;
   Object.assign(globalThis, { window: { history: { replaceState: () => undefined } } });
-  await new Navigation({ store } as unknown as World, moment).goTo({ radar: "front", scan: 4 });
-  assert.deepEqual(shown, [{ radar: "front", scan: 4 }]);
+  return { store, go: new Navigation(world, new Moment(world)) };
+}
+
+test("a scan is there before its cameras' pictures: nothing is selected between it and what is looked at", async () => {
+  const { store, go } = beside("ahead");
+  await go.goTo({ radar: "front", scan: 4 });
+  assert.deepEqual([isOnScreen(store.state, { radar: "front", scan: 4 }), store.state.cameras.length], [true, 1]);
+});
+
+test("a scan that is on its way is not there yet", async () => {
+  const { store, go } = beside("ahead");
+  const coming = go.wholeSequence({ radar: "front", scan: 4 });
+  assert.deepEqual(store.state.current, { radar: "front", scan: 4 });
+  assert.equal(isOnScreen(store.state, { radar: "front", scan: 4 }), false);
+  await coming;
+  assert.equal(isOnScreen(store.state, { radar: "front", scan: 4 }), true);
 });
 
 test("who has gone through one radar is told of that radar, for others may be left", async () => {

@@ -47,7 +47,7 @@ class Desk {
     };
     this.world = { store: this.store, api } as unknown as World;
     deriveAlways(this.store);
-    this.store.set({ sequence: "00", current: { radar: "front", scan: 0 } });
+    this.store.set({ sequence: "00", current: { radar: "front", scan: 0 }, loading: false });
     this.show();
   }
 
@@ -91,6 +91,33 @@ test("after somebody labelled again the next thing is one of the new labels, and
   const chosen = new Uint8Array([1, 0, 0]);
   desk.show();
   assert.equal(thinging.whole(chosen), chosen, "what belongs together in these labels isn't known yet");
+});
+
+test("a thing whose scans can't be read, or that the filter hides, is told and passed over", async () => {
+  const desk = new Desk();
+  const more = { run: "first", doubtful: [doubtful(1, 0), doubtful(0, 500)] };
+  Object.assign(desk.world.api, { doubtful: () => Promise.resolve(more) });
+  const read = { wholeSequence: () => Promise.resolve(desk.store.set({ loading: true })) };
+  const things = new Thinging(desk.world, read as unknown as Navigation, {} as Adopting);
+  await things.next();
+  read.wholeSequence = () =>
+    Promise.resolve(desk.store.set({ loading: false, filter: { ...everything, range: [9, 10] } }));
+  await things.next();
+  assert.match(desk.store.state.notice?.text ?? "", /filter hides all/);
+  await things.next();
+  assert.match(desk.store.state.notice?.text ?? "", /Every doubtful thing/);
+  assert.equal(desk.store.state.thing, null);
+});
+
+test("what somebody selects while the next thing is asked for stays selected, and that is said", async () => {
+  const { store, world } = new Desk();
+  const navigation = { wholeSequence: () => Promise.resolve() } as unknown as Navigation;
+  const things = new Thinging(world, navigation, {} as Adopting);
+  const asked = things.next();
+  store.set({ selection: new Uint8Array([1, 0, 0]) });
+  await asked;
+  assert.deepEqual([[...store.state.selection], store.state.thing], [[1, 0, 0], null]);
+  assert.match(store.state.notice?.text ?? "", /you are at something/);
 });
 
 test("of a thing that comes what the filter hides isn't selected: nobody would see what is said of it", async () => {

@@ -84,7 +84,7 @@ class Table {
     this.selecting = new Selecting(world, correct, {} as Thinging, this.settling, {} as Kinding);
     this.ruling = new Ruling(world, go, this.selecting, correct);
     this.opining = new Opining(world, go, correct);
-    store.set({ sequence: "00", current: HERE, cloud: ALONE, scope: "shown" });
+    store.set({ sequence: "00", current: HERE, loading: false, cloud: ALONE, scope: "shown" });
   }
 
   /** Nothing is fetched anew where it is on screen. */
@@ -202,7 +202,7 @@ test("where nothing of it is selected, that is said and nothing is settled", asy
 
 test("who goes elsewhere while the next disagreement is fetched doesn't get it", async () => {
   const table = new Table();
-  table.arrive = () => table.store.set({ current: { radar: "rear", scan: 3 } });
+  table.arrive = () => table.store.set({ current: { radar: "rear", scan: 3 }, loading: true });
   await table.settling.next();
   assert.equal(table.store.state.disputed, null);
 });

@@ -6,6 +6,7 @@ use super::super::forest::Forest;
 use super::super::model::{CauseForest, Corrected, Input, Model, Origin, World};
 use super::super::tree::{Leaf, Node, Split, Tree};
 use super::{HEAD, checksum};
+use std::collections::HashSet;
 use std::iter::Peekable;
 use std::str::{Lines, SplitWhitespace};
 use thiserror::Error;
@@ -31,10 +32,10 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     }
     let origin = reader.origin()?;
     let expects = reader.next_if("expects")?.map(|line| line.share()).transpose()?;
-    let mut inputs = Vec::new();
+    let (mut inputs, mut names) = (Vec::new(), HashSet::new());
     while let Some(line) = reader.next_if("input")? {
         let input = line.input()?;
-        if inputs.iter().any(|known: &Input| known.name == input.name) {
+        if !names.insert(input.name.clone()) {
             return Err(line.refuse("each input once"));
         }
         inputs.push(input);
