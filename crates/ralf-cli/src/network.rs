@@ -79,12 +79,13 @@ fn runtime() -> Runtime {
     Runtime::Rten
 }
 
-/// The folder for what a network says of a recording's images: the one that is named, else the recording's own.
+/// The folder for what a network says of a recording's images: the one that is [named](named_elsewhere), else the
+/// recording's own.
 pub(crate) fn store_folder<'a>(
     named: Option<&'a Path>,
     recording: &'a Recording,
 ) -> anyhow::Result<&'a Path> {
-    let Some(folder) = named_elsewhere(named, recording) else { return own_folder(recording) };
+    let Some(folder) = named else { return own_folder(recording) };
     refuse_to_write_into(&recording.path, folder)?;
     Ok(folder)
 }
@@ -117,7 +118,7 @@ pub(crate) fn without_links<V: StoredView>(
     named: Option<&Path>,
     recording: &Recording,
 ) -> anyhow::Result<Store<V>> {
-    if named_elsewhere(named, recording).is_none() {
+    if named.is_none() {
         let wanted = "expected -o FOLDER, for nothing is written through a link out of the recording";
         store.refuse_links(recording).context(wanted)?;
     }

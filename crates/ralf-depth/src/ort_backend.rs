@@ -3,6 +3,7 @@
 use crate::NetworkError;
 use crate::network::{Element, Network, Port, Tensor};
 use crate::spares::Spares;
+use crate::wire;
 use ort::environment::Environment;
 use ort::session::Session;
 use ort::session::builder::GraphOptimizationLevel;
@@ -50,6 +51,7 @@ fn load_library(library: PathBuf) -> Result<Environment, String> {
 impl OrtNetwork {
     /// Loads the bytes of an `.onnx` file; the error says why it can't.
     pub(crate) fn load(file: Vec<u8>) -> Result<Self, String> {
+        wire::check(&file)?;
         let session = session(&file)?;
         let ports = |outlets: &[Outlet]| outlets.iter().map(port).collect();
         let (inputs, outputs) = (ports(session.inputs()), ports(session.outputs()));

@@ -2,6 +2,7 @@
 
 use crate::network::{Element, Network, Port, Tensor};
 use crate::spares::Spares;
+use crate::wire;
 use rten::{DataType, Dimension, Model, NodeId, RunOptions, ThreadPool, Value, ValueType};
 use rten_tensor::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,6 +21,7 @@ pub(crate) struct RtenNetwork {
 impl RtenNetwork {
     /// Loads the bytes of an `.onnx` file; the error says why it can't.
     pub(crate) fn load(bytes: Vec<u8>) -> Result<Self, String> {
+        wire::check(&bytes)?;
         let model = guarded(|| Model::load(bytes).map_err(|error| error.to_string()))?;
         Ok(Self { model, pools: Spares::holding(Vec::new()) })
     }

@@ -5,7 +5,6 @@ use crate::network::Network;
 #[cfg(feature = "ort")]
 use crate::ort_backend::{self, OrtNetwork};
 use crate::rten_backend::{self, RtenNetwork};
-use crate::wire;
 use std::path::Path;
 
 /// What runs a network.
@@ -27,14 +26,10 @@ impl Runtime {
             move |reason| NetworkError::Unloadable { file: file.to_owned(), runtime, reason }
         };
         Ok(match self {
-            Self::Rten => {
-                wire::check(&bytes).map_err(unloadable(rten_backend::NAME))?;
-                Box::new(RtenNetwork::load(bytes).map_err(unloadable(rten_backend::NAME))?)
-            }
+            Self::Rten => Box::new(RtenNetwork::load(bytes).map_err(unloadable(rten_backend::NAME))?),
             #[cfg(feature = "ort")]
             Self::OnnxRuntime => {
                 ort_backend::require_library()?;
-                wire::check(&bytes).map_err(unloadable(ort_backend::NAME))?;
                 Box::new(OrtNetwork::load(bytes).map_err(unloadable(ort_backend::NAME))?)
             }
         })

@@ -39,9 +39,9 @@ use crate::tree::copy;
 use crate::verbs::label;
 use ralf::config::Config;
 use ralf::sensors::{CameraImage, ClassImage, DepthImage, DepthOutput};
-use ralf_corrections::{Mark, ScanKey, Store, Who};
+use ralf_corrections::{Mark, ScanKey, Who};
 use ralf_data::Settings;
-use ralf_data::views::{DepthStore, SegmentationStore};
+use ralf_data::views::{DepthStore, SegmentationStore, Store, StoredView};
 use std::fs;
 use std::path::Path;
 
@@ -115,25 +115,19 @@ fn make_run(recording: &Path, place: &Path) {
     let machine = labels.as_chunks::<4>().0.iter().map(|[low, high, ..]| u16::from_le_bytes([*low, *high]));
     let key = ScanKey { sequence: "00".into(), radar: "radar_front".into(), scan: 0 };
     let mark = Mark { key, content: None, base: 0, machine: machine.collect(), reviewed: true };
-    let mut store = Store::open(&out.join("corrections.sqlite")).unwrap();
+    let mut store = ralf_corrections::Store::open(&out.join("corrections.sqlite")).unwrap();
     store.mark(&mark, &Who::named("ada")).unwrap();
 }
 
 /// A recording with a store of depth images beside it.
 fn make_depth(recording: &Path, place: &Path) {
     copy(recording, &place.join("recording"));
-    let recording = ralf_data::open(recording, None).unwrap();
     let store = DepthStore::create(&place.join("depth"), DepthOutput::Depth, "net").unwrap();
-    let images: Vec<_> = (0..IMAGES).map(|image| (0, image)).collect();
-    let ten_metres = |view: &CameraImage, _: f64| {
-        Ok(DepthImage {
-            width: view.width,
-            height: view.height,
-            values: vec![10.0; view.width * view.height],
-        })
-    };
-    let reader = recording.sequences[0].as_ref();
-    assert!(store.compute(reader, &images, &ten_metres, 1, &|| ()).unwrap().without.is_empty());
+    fill(&store, recording, |CameraImage { width, height, .. }| DepthImage {
+        width: *width,
+        height: *height,
+        values: vec![10.0; width * height],
+    });
     assert!(DepthStore::open(&place.join("depth")).is_ok());
 }
 
@@ -145,14 +139,21 @@ fn make_classes(recording: &Path, place: &Path) {
 
 /// Stores what a network says of a recording's images to which everything is a car.
 fn segment(recording: &Path, root: &Path) {
-    let recording = ralf_data::open(recording, None).unwrap();
     let store = SegmentationStore::create(root, "net").unwrap();
+    fill(&store, recording, |CameraImage { width, height, .. }| ClassImage {
+        width: *width,
+        height: *height,
+        ids: vec![10; width * height],
+    });
+}
+
+/// Stores what a network says of the images of a recording's camera.
+fn fill<V: StoredView>(store: &Store<V>, recording: &Path, says: impl Fn(&CameraImage) -> V + Sync) {
+    let recording = ralf_data::open(recording, None).unwrap();
     let images: Vec<_> = (0..IMAGES).map(|image| (0, image)).collect();
-    let all_cars = |view: &CameraImage, _: f64| {
-        Ok(ClassImage { width: view.width, height: view.height, ids: vec![10; view.width * view.height] })
-    };
     let reader = recording.sequences[0].as_ref();
-    assert!(store.compute(reader, &images, &all_cars, 1, &|| ()).unwrap().without.is_empty());
+    let estimate = |view: &CameraImage, _: f64| Ok(says(view));
+    assert!(store.compute(reader, &images, &estimate, 1, &|| ()).unwrap().without.is_empty());
 }
 
 fn put(file: &Path, content: impl AsRef<[u8]>) {

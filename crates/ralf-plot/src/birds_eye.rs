@@ -116,7 +116,7 @@ fn ground(picture: &ScanPicture<'_>, typeface: &Typeface, width: f32, unit: f32)
 /// The places that the view is fitted to: the detections, or the LiDAR returns where there are none. Of few, none is
 /// left out as one of the farthest, but a damaged number must not make all others one dot.
 fn scattered<'a>(picture: &ScanPicture<'a>) -> Box<dyn Iterator<Item = [f64; 2]> + 'a> {
-    let is_near = |place: &[f64; 2]| is_place(place) && place[0].hypot(place[1]) <= FARTHEST_HEARD;
+    let is_near = |place: &[f64; 2]| place[0].hypot(place[1]) <= FARTHEST_HEARD;
     if picture.marks.iter().any(|mark| is_near(&mark.place())) {
         Box::new(picture.marks.iter().map(Mark::place).filter(is_near))
     } else {

@@ -91,9 +91,10 @@ impl DepthArgs {
     /// Where depth goes. A dataset of the own layout says what its depth images hold, which the network must give.
     fn store(&self, recording: &Recording, model: &OnnxModel) -> anyhow::Result<DepthStore> {
         let output = model.output();
-        let folder = store_folder(self.output.as_deref(), recording)?;
-        let is_own = named_elsewhere(self.output.as_deref(), recording).is_none();
-        for reader in recording.sequences.iter().filter(|_| is_own) {
+        let named = named_elsewhere(self.output.as_deref(), recording);
+        let folder = store_folder(named, recording)?;
+        let of_recording = if named.is_none() { recording.sequences.as_slice() } else { &[] };
+        for reader in of_recording {
             let declared = reader.sequence().depth_output;
             let file = sensors_file(&recording.path, &reader.sequence().name);
             ensure!(
@@ -103,7 +104,7 @@ impl DepthArgs {
             );
         }
         let store = DepthStore::create(folder, output, model.fingerprint())?;
-        without_links(store, self.output.as_deref(), recording)
+        without_links(store, named, recording)
     }
 }
 

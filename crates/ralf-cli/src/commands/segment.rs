@@ -1,7 +1,9 @@
 //! `ralf segment`: the class of every pixel of every image, once for all.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{SegmentationModelArgs, fill_segmentation, store_folder, without_links};
+use crate::network::{
+    SegmentationModelArgs, fill_segmentation, named_elsewhere, store_folder, without_links,
+};
 use crate::outcome::Outcome;
 use clap::Args;
 use ralf_data::Recording;
@@ -55,8 +57,9 @@ pub(crate) fn run(arguments: &SegmentArgs) -> anyhow::Result<Outcome> {
 
 impl SegmentArgs {
     fn store(&self, recording: &Recording, model: &SegmentationModel) -> anyhow::Result<SegmentationStore> {
-        let folder = store_folder(self.output.as_deref(), recording)?;
+        let named = named_elsewhere(self.output.as_deref(), recording);
+        let folder = store_folder(named, recording)?;
         let store = SegmentationStore::create(folder, model.fingerprint())?;
-        without_links(store, self.output.as_deref(), recording)
+        without_links(store, named, recording)
     }
 }

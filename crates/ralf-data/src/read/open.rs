@@ -177,12 +177,21 @@ pub(crate) fn recognised(path: &Path) -> Option<(&'static str, bool)> {
     Some((format.name, format.knows_truth))
 }
 
-/// The format of a recording that isn't in the own layout, whatever else the folder holds. Not only ROS writes a file
-/// `metadata.yaml`.
-pub(crate) fn recognised_as_other(path: &Path) -> Option<&'static str> {
+/// Refuses a recording that isn't in the own layout, whatever else the folder holds, as a place for what is `expected`:
+/// with `sequences` in it, it would be taken for one in that. Not only ROS writes a file `metadata.yaml`.
+///
+/// # Errors
+/// Such a recording, with its format.
+pub(crate) fn refuse_other_format(path: &Path, expected: &str) -> Result<(), DataError> {
     let others = FORMATS.iter().filter(|format| format.name != layout::NAME && (format.recognises)(path));
     let mut names = others.map(|format| format.name);
-    names.find(|name| *name != ros::NAME || path.is_file() || is_bag(path))
+    match names.find(|name| *name != ros::NAME || path.is_file() || is_bag(path)) {
+        Some(format) => {
+            let found = format!("a recording of the format {format}");
+            Err(DataError::content(path, "output", expected, found))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Whether a folder's `metadata.yaml` is that of a ROS 2 bag.

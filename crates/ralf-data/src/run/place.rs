@@ -2,7 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::open::recognised_as_other;
+use crate::read::open::refuse_other_format;
 use crate::read::{refuse_own_places, refuse_to_write_into};
 use crate::result::{OutFolder, is_under_way};
 use crate::tree::{LABELS, PLAN, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
@@ -44,17 +44,17 @@ pub(crate) fn check_folder_of_many(out: &Path) -> Result<(), DataError> {
 
 /// Labels among measurements would be taken for a part of them.
 fn refuse_recording(out: &Path) -> Result<(), DataError> {
-    let refuse =
-        |found: String| Err(DataError::content(out, "output", "a folder of labels, or nothing yet", found));
+    let expected = "a folder of labels, or nothing yet";
     let sequences = files::folders(&out.join(SEQUENCES))?;
     if let Some(file) = sequences.iter().map(|name| sensors_file(out, name)).find(|file| file.is_file()) {
-        return refuse(format!("a recording, with {}", file.display()));
+        let found = format!("a recording, with {}", file.display());
+        return Err(DataError::content(out, "output", expected, found));
     }
     // Results beside a recording are there already, or are none of ours.
     if out.join(RECORD).is_file() || is_under_way(out)? {
         return Ok(());
     }
-    recognised_as_other(out).map_or(Ok(()), |format| refuse(format!("a recording of the format {format}")))
+    refuse_other_format(out, expected)
 }
 
 /// What the record of every version of the program has.

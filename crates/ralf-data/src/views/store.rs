@@ -5,7 +5,7 @@ use super::compute::{Computed, Estimate, Unusable, ViewObserver, compute_views};
 use super::folder::ViewFolder;
 use super::stored_view::StoredView;
 use crate::error::DataError;
-use crate::read::open::recognised_as_other;
+use crate::read::open::refuse_other_format;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Component, SequenceNames};
 use std::path::{Path, PathBuf};
@@ -19,13 +19,10 @@ pub struct Store<V: StoredView> {
 
 impl<V: StoredView> Store<V> {
     /// The store that a card tells of; the first image that is stored begins it. One of another card is refused, and so
-    /// is a recording of another format than the own layout: with `sequences` in it, it would be taken for one in that.
+    /// is a recording of another format than the own layout.
     pub(super) fn begin(root: &Path, card: V::Card) -> Result<Self, DataError> {
-        if let Some(format) = recognised_as_other(root) {
-            let expected = format!("a folder for {}, or a recording in the own layout", V::KIND.name);
-            let found = format!("a recording of the format {format}");
-            return Err(DataError::content(root, "output", expected, found));
-        }
+        let expected = format!("a folder for {}, or a recording in the own layout", V::KIND.name);
+        refuse_other_format(root, &expected)?;
         let folder = ViewFolder::new(root, V::KIND);
         folder.refuse_other(&card, V::network)?;
         Ok(Self { folder, card })

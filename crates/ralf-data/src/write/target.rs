@@ -2,7 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::open::recognised_as_other;
+use crate::read::open::refuse_other_format;
 use crate::read::outside::refuse_own_places;
 use crate::tree::MARKS_OF_LABELS;
 use std::path::Path;
@@ -10,17 +10,14 @@ use std::path::Path;
 /// Refuses a part of a recording, a folder of labels, and what is a recording of another format than the own layout:
 /// with `sequences` in it, it would be taken for one in the own layout.
 pub(super) fn refuse_other_folder(dataset: &Path) -> Result<(), DataError> {
-    let refuse = |found: String| {
-        let expected = "a recording in the own layout, or nothing yet";
-        Err(DataError::content(dataset, "output", expected, found))
-    };
+    let expected = "a recording in the own layout, or nothing yet";
     refuse_own_places(dataset)?;
     // Labels look like a recording in the own layout, so these are asked for first.
     for mark in MARKS_OF_LABELS {
         if files::exists(&dataset.join(mark))? {
-            return refuse(format!("labels, with {mark}"));
+            let found = format!("labels, with {mark}");
+            return Err(DataError::content(dataset, "output", expected, found));
         }
     }
-    recognised_as_other(dataset)
-        .map_or(Ok(()), |format| refuse(format!("a recording of the format {format}")))
+    refuse_other_format(dataset, expected)
 }

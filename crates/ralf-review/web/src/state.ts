@@ -22,6 +22,7 @@ import { everything, type Filter } from "./data/filter.js";
 import { type Choice, LabelBook } from "./data/labels.js";
 import type { ReplayPart } from "./data/replay.js";
 import type { Rule, Verdict } from "./data/rules.js";
+import { sameScan } from "./data/scan.js";
 import type { Lidar } from "./data/lidar.js";
 import type { Unseen } from "./data/sight.js";
 import type { OutboxStatus, Pending } from "./history/outbox.js";
@@ -203,6 +204,11 @@ export const NOTHING_LOOKED_AT = {
   disputed: null,
 } as const satisfies Partial<State>;
 
+/** Nothing is looked at and nothing selected: until what comes is on screen, no key says anything of what was. */
+export function nothingChosen({ cloud }: Readonly<State>): typeof NOTHING_LOOKED_AT & Pick<State, "selection"> {
+  return { ...NOTHING_LOOKED_AT, selection: new Uint8Array(cloud.count) };
+}
+
 /** The thing that is looked at: it wants an answer, two people labelled it differently, or it would change. */
 export function lookedAt({ thing, disputed, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
   return thing ?? disputed ?? opinion?.changes[opinionAt] ?? null;
@@ -210,8 +216,7 @@ export function lookedAt({ thing, disputed, opinion, opinionAt }: Readonly<State
 
 /** Whether a scan is the one under review, and there: one that was asked for may still be on its way. */
 export function isOnScreen({ cloud, loading }: Readonly<State>, id: ScanId): boolean {
-  const scan = cloud.scans.at(0);
-  return !loading && scan !== undefined && scan.radar === id.radar && scan.scan === id.scan;
+  return !loading && sameScan(cloud.scans.at(0) ?? null, id);
 }
 
 /** Whose places are on screen. */

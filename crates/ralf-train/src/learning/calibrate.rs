@@ -46,6 +46,21 @@ const DOUBT: f64 = 1.0;
 pub(super) fn calibration(answered: &[Answered]) -> Calibration {
     let mut sorted = answered.to_vec();
     sorted.sort_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for pool in rising(&sorted) {
+        let share = (pool.plausible + DOUBT * 0.5) / (pool.weight + DOUBT);
+        let floor = points.last().map_or(0.0, |(_, share)| *share);
+        let log_odds = pool.log_odds / pool.weight;
+        if points.last().is_none_or(|(last, _)| *last < log_odds) {
+            points.push((log_odds, share.max(floor)));
+        }
+    }
+    // Of no rows nothing is known.
+    Calibration::new(points).unwrap_or_else(|_| Calibration::even())
+}
+
+/// Rows in the order of their log odds, in pools whose shares rise.
+fn rising(sorted: &[Answered]) -> Vec<Pool> {
     let all: f64 = sorted.iter().map(|row| row.weight).sum();
     let mut pools: Vec<Pool> = Vec::new();
     let mut cell: Option<Pool> = None;
@@ -67,17 +82,7 @@ pub(super) fn calibration(answered: &[Answered]) -> Calibration {
         }
     }
     cell.into_iter().for_each(|pool| add_rising(&mut pools, pool));
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    for pool in &pools {
-        let share = (pool.plausible + DOUBT * 0.5) / (pool.weight + DOUBT);
-        let floor = points.last().map_or(0.0, |(_, share)| *share);
-        let log_odds = pool.log_odds / pool.weight;
-        if points.last().is_none_or(|(last, _)| *last < log_odds) {
-            points.push((log_odds, share.max(floor)));
-        }
-    }
-    // Of no rows nothing is known.
-    Calibration::new(points).unwrap_or_else(|_| Calibration::even())
+    pools
 }
 
 /// Adds a pool, and joins the last ones until none falls below the one before.

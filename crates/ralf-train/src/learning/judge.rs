@@ -39,6 +39,7 @@ pub(super) fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16)
     let mut found = Vec::new();
     for (known, log_odds) in table.known.iter().zip(log_odds).filter(|(known, _)| of(known.world)) {
         let world = usize::from(known.world);
+        // Where each has its full say, `all / says` is how many they are, to the bit.
         let weight = table.len() as f64 / (all / says[world] * rows[world]);
         found.push(Answered { log_odds: *log_odds, plausible: known.plausible, weight });
     }

@@ -209,7 +209,7 @@ impl LidarSnapshot {
         let (radar_from_vehicle, sees) = (radar.vehicle_from_radar.inverse(), radar.sees_heights_of());
         let (mut points, mut ids) = (Vec::new(), Vec::new());
         for &id in self.above_ground() {
-            let in_vehicle = vehicle_from_moment * Point::from(self.points[id as usize].map(f64::from));
+            let in_vehicle = placed(vehicle_from_moment, &self.points[id as usize]);
             if sees(&(radar_from_vehicle * in_vehicle)) {
                 points.push([in_vehicle.x as f32, in_vehicle.y as f32, 0.0]);
                 ids.push(id);

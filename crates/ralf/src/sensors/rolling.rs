@@ -2,7 +2,7 @@
 //! them.
 
 use crate::sensors::{LidarScan, is_return};
-use crate::space::{EgoMotion, Point, Transform};
+use crate::space::{EgoMotion, Transform, placed};
 
 impl LidarScan {
     /// The scan motion-corrected to its time, of points that lie where they were measured: each in the LiDAR's frame at
@@ -38,7 +38,7 @@ impl LidarScan {
                 }
             };
             column = Some((time, moved));
-            let place = moved * Point::from(point.map(f64::from));
+            let place = placed(&moved, point);
             *point = [place.x as f32, place.y as f32, place.z as f32];
         }
         self
@@ -48,7 +48,7 @@ impl LidarScan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::{OdometrySample, Vector, transform_from_parts};
+    use crate::space::{OdometrySample, Point, Vector, transform_from_parts};
 
     /// 20 m/s in a bend to the left, 0.5 rad/s.
     fn bend() -> EgoMotion {

@@ -13,7 +13,7 @@ use ralf::label::Cause;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
 };
-use ralf::space::{EgoMotion, OdometrySample, Point, Transform};
+use ralf::space::{EgoMotion, OdometrySample, Transform, placed};
 use std::f64::consts::FRAC_PI_6;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -133,8 +133,8 @@ impl Source for Standing {
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         let scan = measurement("lidar", std::slice::from_ref(&self.lidar), lidar, scan)?;
         let lidar_from_car = lidar_mounting().inverse();
-        let seen = |[x, y, z]: [f32; 3]| {
-            let place = lidar_from_car * Point::from([x, y, z].map(f64::from));
+        let seen = |point: [f32; 3]| {
+            let place = placed(&lidar_from_car, &point);
             [place.x as f32, place.y as f32, place.z as f32]
         };
         let table = self.tables.points.of(&self.file)?;

@@ -5,7 +5,7 @@ import type { ScanCorrections } from "../api/types.js";
 import { holdsStill, withScans } from "../data/cloud.js";
 import { sameScan, type Scan, withCorrections } from "../data/scan.js";
 import { progressOf, withAnswers } from "../queue/queue.js";
-import { NOTHING_LOOKED_AT } from "../state.js";
+import { nothingChosen } from "../state.js";
 import type { Moment } from "./moment.js";
 import type { Queueing } from "./queueing.js";
 import { complain, tell, type World } from "./world.js";
@@ -58,7 +58,7 @@ export class Adopting {
   private async startOver(): Promise<void> {
     const { store, loader } = this.world;
     loader.forgetScans();
-    store.set({ ...NOTHING_LOOKED_AT, accepting: null, selection: new Uint8Array(store.state.cloud.count) });
+    store.set({ ...nothingChosen(store.state), accepting: null });
     tell(this.world, "The recording holds other detections of this moment now: look at it again.");
     if (store.state.current !== null) await this.moment.show(store.state.current);
   }

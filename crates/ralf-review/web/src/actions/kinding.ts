@@ -6,7 +6,7 @@ import type { Choice } from "../data/labels.js";
 import { lineAt, linesOf, within } from "../data/kinds.js";
 import { keptPoints } from "../data/opinion.js";
 import { countOf, intersection } from "../selection/mask.js";
-import { type Focus, NOTHING_LOOKED_AT } from "../state.js";
+import { type Focus, nothingChosen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
@@ -92,8 +92,7 @@ export class Kinding {
   private async ask(): Promise<void> {
     const { store, api } = this.world;
     const { sequence } = store.state;
-    // Until the next one is on screen no key says anything of the one before.
-    store.set({ ...NOTHING_LOOKED_AT, thinking: true, selection: new Uint8Array(store.state.cloud.count) });
+    store.set({ ...nothingChosen(store.state), thinking: true });
     try {
       const tNs = store.state.cloud.scans[0]?.table.header.t_ns ?? "0";
       const { next, kinds, base, scans } = await api.kinds(sequence, tNs, [...this.passed]);
@@ -113,14 +112,14 @@ export class Kinding {
   private async show(kind: Kind): Promise<void> {
     const { store } = this.world;
     const { sequence, current } = store.state;
+    const isHere = (): boolean => kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
     await this.lookedIn.elsewhere(async () => {
       await this.navigation.wholeSequence(current ?? kind);
-      const isHere = kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
-      if (!isHere) await this.navigation.wholeSequence(kind);
+      if (!isHere()) await this.navigation.wholeSequence(kind);
     });
     if (sequence !== store.state.sequence) return;
     const { cloud, eligible, loading } = store.state;
-    if (loading || !kind.points.some((part) => findScan(cloud, part) >= 0)) return this.miss(kind);
+    if (loading || !isHere()) return this.miss(kind);
     const selection = intersection(maskOf(cloud, within(kind)), eligible);
     this.lookedIn.here();
     store.set({ ...NOTHING_LOOKED_AT, kind, selection, armed: undefined, focus: around(cloud, selection) });

@@ -6,7 +6,7 @@ import { countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import { counted } from "../format.js";
 import { countOf, intersection } from "../selection/mask.js";
-import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
+import { isOnScreen, nothingChosen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
@@ -70,8 +70,7 @@ export class Opining {
     if (store.state.current === null || !(await this.correcting.free("thinking it over"))) return;
     const { sequence, current, thinking } = store.state;
     if (thinking || current === null) return;
-    const selection = new Uint8Array(store.state.selection.length);
-    store.set({ ...NOTHING_LOOKED_AT, thinking: true, selection });
+    store.set({ ...nothingChosen(store.state), thinking: true });
     try {
       const opinion = await api.opinion(sequence, store.state.cloud.scans[0]?.table.header.t_ns ?? "0");
       if (sequence !== store.state.sequence) return;

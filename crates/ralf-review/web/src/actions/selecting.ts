@@ -1,10 +1,10 @@
 /** Choosing detections, and what is set by it. */
 
 import type { Choice } from "../data/labels.js";
+import { counted } from "../format.js";
 import { combine, type Combination, countOf, intersection, inverted } from "../selection/mask.js";
 import { isPress, type Tool } from "../selection/tools.js";
-import { counted } from "../format.js";
-import { NOTHING_LOOKED_AT } from "../state.js";
+import { nothingChosen, NOTHING_LOOKED_AT } from "../state.js";
 import { askedAbout } from "./asked.js";
 import type { Correcting } from "./correcting.js";
 import type { Kinding } from "./kinding.js";
@@ -112,7 +112,7 @@ export class Selecting {
   escape(): void {
     const { store } = this.world;
     const { selection, thing } = store.state;
-    if (countOf(selection) > 0) store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(selection.length) });
+    if (countOf(selection) > 0) store.set(nothingChosen(store.state));
     else store.set({ ...NOTHING_LOOKED_AT, thing, armed: undefined, notice: null, accepting: null, drawing: null });
   }
 

@@ -6,7 +6,7 @@ import type { Choice } from "../data/labels.js";
 import { countOfPoints, keptPoints } from "../data/opinion.js";
 import { keyOf, nextDisagreement, outlookOf } from "../data/team.js";
 import { counted } from "../format.js";
-import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
+import { isOnScreen, nothingChosen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
@@ -119,8 +119,7 @@ export class Settling {
     const { sequence } = store.state;
     this.seen.add(keyOf(disagreement));
     const base = store.state.disagreements?.base ?? [];
-    // Until the next one is on screen no key settles anything, or labels what the one before had selected.
-    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
+    store.set(nothingChosen(store.state));
     await this.navigation.wholeSequence(disagreement);
     // Somebody went elsewhere meanwhile, or the scan can't be read.
     if (sequence !== store.state.sequence || !isOnScreen(store.state, disagreement)) return;

@@ -5,7 +5,7 @@ import { maskOf } from "../data/cloud.js";
 import { nextThing, placeOf, type Place, Things, wholeThings } from "../data/things.js";
 import { movePlace } from "../data/transform.js";
 import { countOf, intersection } from "../selection/mask.js";
-import { isOnScreen, NOTHING_LOOKED_AT } from "../state.js";
+import { isOnScreen, nothingChosen, NOTHING_LOOKED_AT } from "../state.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
 import { complain, tell, type World } from "./world.js";
@@ -60,8 +60,7 @@ export class Thinging {
     const { store } = this.world;
     const { sequence } = store.state;
     this.underWay += 1;
-    // Until it is on screen no key answers it with what is selected of another.
-    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
+    store.set(nothingChosen(store.state));
     try {
       if (this.things === null) await this.load();
       else await this.hear(sequence);
